@@ -1,0 +1,30 @@
+# One static library per layer, with exactly the layers it may see (docs/architecture.md).
+#   strataflow_add_layer(name SOURCES a.cpp … LAYERS base model … PRIVATE third::party …)
+function(strataflow_add_layer name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LAYERS;PRIVATE" ${ARGN})
+  set(target strataflow_${name})
+  add_library(${target} STATIC ${ARG_SOURCES})
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/strataflow>)
+  foreach(layer IN LISTS ARG_LAYERS)
+    target_link_libraries(${target} PUBLIC strataflow_${layer})
+  endforeach()
+  target_link_libraries(${target} PUBLIC $<BUILD_INTERFACE:strataflow_floating_point> $<BUILD_INTERFACE:strataflow_sanitizers>)
+  target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:strataflow_warnings> ${ARG_PRIVATE})
+endfunction()
+
+# One GoogleTest executable per folder of tests/, labelled so that `ctest -L label` selects it.
+#   strataflow_add_test(name SOURCES a_test.cpp … LAYERS … LABELS …)
+function(strataflow_add_test name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LAYERS;PRIVATE;LABELS" ${ARGN})
+  set(target ${name}_tests)
+  add_executable(${target} ${ARG_SOURCES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  foreach(layer IN LISTS ARG_LAYERS)
+    target_link_libraries(${target} PRIVATE strataflow_${layer})
+  endforeach()
+  target_link_libraries(${target} PRIVATE GTest::gtest_main GTest::gmock strataflow_warnings strataflow_sanitizers ${ARG_PRIVATE})
+  target_compile_definitions(${target} PRIVATE
+    STRATAFLOW_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRATAFLOW_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT 600)
+endfunction()

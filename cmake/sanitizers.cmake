@@ -1,0 +1,10 @@
+# STRATAFLOW_SANITIZE is a list for -fsanitize=, e.g. "address,undefined" or "thread".
+set(STRATAFLOW_SANITIZE "" CACHE STRING "Value for -fsanitize=")
+add_library(strataflow_sanitizers INTERFACE)
+if(STRATAFLOW_SANITIZE)
+  target_compile_options(strataflow_sanitizers INTERFACE -fsanitize=${STRATAFLOW_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(strataflow_sanitizers INTERFACE -fsanitize=${STRATAFLOW_SANITIZE})
+  if(STRATAFLOW_SANITIZE MATCHES "undefined")
+    target_compile_options(strataflow_sanitizers INTERFACE -fno-sanitize-recover=undefined)
+  endif()
+endif()

@@ -1,0 +1,15 @@
+#pragma once
+#include <compare>
+#include <cstdint>
+
+namespace strataflow {
+
+/// An index that cannot be mistaken for an index of something else: `Id<struct NodeTag>` and `Id<struct LineTag>`
+/// are different types. Four bytes, ordered, no arithmetic.
+template <class Tag>
+struct Id {
+  std::uint32_t value = 0;
+  friend constexpr auto operator<=>(Id, Id) = default;
+};
+
+}  // namespace strataflow
