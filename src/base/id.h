@@ -4,6 +4,9 @@
 
 namespace strataflow {
 
+/// "None" where an index is expected.
+constexpr std::uint32_t no_index = 0xffffffffu;
+
 /// An index that cannot be mistaken for an index of something else: `Id<struct NodeTag>` and `Id<struct LineTag>`
 /// are different types. Four bytes, ordered, no arithmetic.
 template <class Tag>

@@ -25,7 +25,7 @@ struct Violation {
 /// Outcome of checking a model: rules A1–A24 (euler1999 §3) and I1–I6 (pellerin2014 §3) that apply to a static one.
 struct ValidityReport {
   std::uint64_t intersecting_triangle_pairs = 0;
-  std::uint64_t self_intersecting_pairs = 0;  ///< of these, both triangles in one surface
+  std::uint64_t self_intersecting_pairs = 0;  ///< of these, both triangles in one entity
   std::vector<Violation> violations;          ///< ordered by kind, then by the first entity they name
   bool is_valid() const {
     for (const Violation& violation : violations)

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/id.h"
 #include "model/geology.h"
 #include "model/vector3.h"
 
@@ -21,8 +22,6 @@ constexpr int vertex_count(CellType type) {
   }
   return 0;
 }
-
-constexpr std::uint32_t no_index = 0xffffffffu;
 
 /// A face of the mesh that lies on a surface of the model. Triangles repeat no vertex; `vertices[3]` is `no_index`.
 /// Seen from cell_0 the vertices turn counter-clockwise about the outward normal.

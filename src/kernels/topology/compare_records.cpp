@@ -1,0 +1,138 @@
+#include "kernels/topology/compare_records.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/id.h"
+
+namespace strataflow {
+
+namespace {
+
+bool is_universe_record(const RegionRecord& record) { return record.name == "Universe"; }
+
+std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+struct Match {
+  double likeness;  ///< shared patches over all patches of both
+  std::uint32_t record, region;
+};
+
+}  // namespace
+
+void name_regions(StructuralModel& model, const TriangleSoup& soup, const std::vector<std::uint32_t>& patch_of_surface) {
+  std::vector<std::vector<std::uint32_t>> patches_of_region(model.regions.size());
+  for (std::size_t s = 0; s < model.surfaces.size(); ++s)
+    for (const std::uint32_t region : {model.surfaces[s].region_plus, model.surfaces[s].region_minus})
+      if (region != universe) patches_of_region[region].push_back(patch_of_surface[s]);
+  for (auto& patches : patches_of_region) patches = sorted_unique(std::move(patches));
+
+  std::vector<Match> matches;
+  for (std::uint32_t record = 0; record < soup.regions.size(); ++record) {
+    if (is_universe_record(soup.regions[record])) continue;
+    std::vector<std::uint32_t> named;
+    for (const PatchSide& side : soup.regions[record].sides) named.push_back(side.patch);
+    named = sorted_unique(std::move(named));
+    for (std::uint32_t region = 0; region < model.regions.size(); ++region) {
+      std::vector<std::uint32_t> shared;
+      std::set_intersection(named.begin(), named.end(), patches_of_region[region].begin(), patches_of_region[region].end(),
+                            std::back_inserter(shared));
+      if (shared.empty()) continue;
+      const auto all = static_cast<double>(named.size() + patches_of_region[region].size() - shared.size());
+      matches.push_back({static_cast<double>(shared.size()) / all, record, region});
+    }
+  }
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
+    if (a.likeness != b.likeness) return a.likeness > b.likeness;
+    return a.record != b.record ? a.record < b.record : a.region < b.region;
+  });
+  std::vector<std::uint32_t> region_of_record(soup.regions.size(), no_index);
+  for (const Match& match : matches) {
+    if (region_of_record[match.record] != no_index || !model.regions[match.region].name.empty()) continue;
+    region_of_record[match.record] = match.region;
+    model.regions[match.region].name = soup.regions[match.record].name;
+  }
+  for (std::size_t r = 0; r < model.regions.size(); ++r)
+    if (model.regions[r].name.empty()) model.regions[r].name = "region_" + std::to_string(r + 1);
+  for (const LayerRecord& record : soup.layers) {
+    Layer layer{record.name, {}};
+    for (const std::uint32_t r : record.regions)
+      if (r < region_of_record.size() && region_of_record[r] != no_index) layer.regions.push_back(region_of_record[r]);
+    layer.regions = sorted_unique(std::move(layer.regions));
+    model.layers.push_back(std::move(layer));
+  }
+}
+
+std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeTable& edges, const TriangleSoup& soup,
+                                       const std::vector<std::uint32_t>& id_of_point) {
+  std::vector<Violation> violations;
+  const auto point_text = [&](std::uint32_t soup_point) {
+    const Vec3 p = soup.points[soup_point] + soup.local_origin;
+    return "(" + std::to_string(p.x) + ", " + std::to_string(p.y) + ", " + std::to_string(p.z) + ")";
+  };
+  std::uint64_t lost_stones = 0, superfluous = 0, lost_borders = 0;
+  std::uint32_t lost_stone = 0, superfluous_stone = 0, lost_border = 0;
+  for (const std::uint32_t stone : soup.border_stones) {
+    const std::uint32_t v = id_of_point[stone];
+    if (v != no_index && model.point_corner[v] >= 0) continue;
+    if (v == no_index || model.point_line[v] < 0) {
+      if (lost_stones++ == 0) lost_stone = stone;
+    } else if (!model.lines[static_cast<std::size_t>(model.point_line[v])].is_closed()) {  // a loop needs one stone
+      if (superfluous++ == 0) superfluous_stone = stone;
+    }
+  }
+  for (std::uint32_t b = 0; b < soup.border_starts.size(); ++b) {
+    const std::uint32_t v = id_of_point[soup.border_starts[b][0]], w = id_of_point[soup.border_starts[b][1]];
+    const std::uint32_t e = v == no_index || w == no_index ? no_index : find_edge(edges, v, w);
+    bool on_line = e != no_index;
+    if (on_line) {
+      const auto around = edges.around(e);
+      on_line = around.size() != 2 || model.triangle_surface[around[0] / 3] != model.triangle_surface[around[1] / 3];
+    }
+    if (!on_line && lost_borders++ == 0) lost_border = b;
+  }
+  const char* rebuild = "`strataflow check --repair` and `run` rebuild borders from the geometry";
+  if (lost_stones > 0)
+    violations.push_back({"inconsistent_border", Violation::Severity::error,
+                          std::to_string(lost_stones) + " border stones (BSTONE) lie on no line, the first at " +
+                              point_text(lost_stone),
+                          rebuild, soup.points[lost_stone], lost_stones});
+  if (lost_borders > 0)
+    violations.push_back({"inconsistent_border", Violation::Severity::error,
+                          std::to_string(lost_borders) + " borders (BORDER) start on no line, the first at " +
+                              point_text(soup.border_starts[lost_border][0]),
+                          rebuild, soup.points[soup.border_starts[lost_border][0]], lost_borders});
+  if (superfluous > 0)
+    violations.push_back({"superfluous_border_stone", Violation::Severity::warning,
+                          std::to_string(superfluous) + " border stones lie inside a line where no surface ends, the first at " +
+                              point_text(superfluous_stone),
+                          "nothing: the minimal lines are used", soup.points[superfluous_stone], superfluous});
+  return violations;
+}
+
+std::vector<Violation> compare_region_records(const StructuralModel& model, const TriangleSoup& soup,
+                                              const std::vector<std::uint32_t>& patch_of_surface) {
+  std::vector<std::vector<std::uint32_t>> records_of_patch(soup.patch_entity.size());
+  for (std::uint32_t record = 0; record < soup.regions.size(); ++record)
+    for (const PatchSide& side : soup.regions[record].sides)
+      if (records_of_patch[side.patch].empty() || records_of_patch[side.patch].back() != record)
+        records_of_patch[side.patch].push_back(record);
+  std::vector<Violation> violations;
+  for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
+    const Surface& surface = model.surfaces[s];
+    const auto& records = records_of_patch[patch_of_surface[s]];
+    if (!surface.is_dangling() || records.size() < 2) continue;
+    violations.push_back({"leak", Violation::Severity::error,
+                          "surface " + std::to_string(s) + " of '" + model.entities[surface.entity].name +
+                              "' should part '" + soup.regions[records[0]].name + "' from '" + soup.regions[records[1]].name +
+                              "', but the space on its two sides is one",
+                          "close the gap along its border", model.points[model.triangles[surface.first_triangle][0]], 1});
+  }
+  return violations;
+}
+
+}  // namespace strataflow
