@@ -37,19 +37,20 @@ int segments_in_plane(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s
 }
 
 /// A segment against a triangle of another plane; `p_side` and `q_side` are the ends' sides of the triangle's plane,
-/// not both 0. 0 apart, 1 touching the border or with an end, 2 piercing the inside.
+/// not both 0. 0 apart, 1 touching a vertex or with an end, 2 piercing the inside or an edge.
 int segment_through(const Corners& t, const Vec3& p, const Vec3& q, int p_side, int q_side, int axis) {
   if (p_side * q_side > 0) return 0;
   if (p_side == 0) return place_in_plane(t, p, axis) >= 0 ? 1 : 0;
   if (q_side == 0) return place_in_plane(t, q, axis) >= 0 ? 1 : 0;
-  int lowest = 1, highest = -1;
+  int lowest = 1, highest = -1, edges_met = 0;
   for (int k = 0; k < 3; ++k) {
     const int turn = orientation_3d(p, q, *t[k], *t[(k + 1) % 3]);
     lowest = std::min(lowest, turn);
     highest = std::max(highest, turn);
+    edges_met += turn == 0;
     if (lowest < 0 && highest > 0) return 0;
   }
-  return lowest == 0 || highest == 0 ? 1 : 2;
+  return edges_met > 1 ? 1 : 2;
 }
 
 /// A segment in the triangle's plane. 0 apart, 1 touching its border, 2 passing through the inside.
