@@ -1,6 +1,7 @@
 #include "kernels/topology/compare_records.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "base/id.h"
@@ -15,6 +16,34 @@ std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
+}
+
+/// Per border record: its two points are the ends of an edge of a triangle, copies of a point being told apart. Along
+/// the slit that a fault leaves in a horizon, a record can name one copy from each lip, which is no edge.
+std::vector<char> find_own_edges(const TriangleSoup& soup) {
+  struct Start {
+    std::array<std::uint32_t, 2> ends;
+    std::uint32_t record;
+    auto operator<=>(const Start&) const = default;
+  };
+  std::vector<Start> starts;
+  std::vector<char> is_end(soup.points.size(), 0);
+  for (std::uint32_t b = 0; b < soup.border_starts.size(); ++b) {
+    const auto [v, w] = soup.border_starts[b];
+    starts.push_back({{std::min(v, w), std::max(v, w)}, b});
+    is_end[v] = is_end[w] = 1;
+  }
+  std::sort(starts.begin(), starts.end());
+  std::vector<char> found(starts.size(), 0);
+  for (const Triangle& t : soup.triangles)
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = t[k], w = t[(k + 1) % 3];
+      if (!is_end[v] || !is_end[w]) continue;
+      const std::array<std::uint32_t, 2> ends{std::min(v, w), std::max(v, w)};
+      for (auto s = std::lower_bound(starts.begin(), starts.end(), Start{ends, 0}); s != starts.end() && s->ends == ends; ++s)
+        found[s->record] = 1;
+    }
+  return found;
 }
 
 struct Match {
@@ -85,10 +114,11 @@ std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeT
       if (superfluous++ == 0) superfluous_stone = stone;
     }
   }
+  const std::vector<char> is_own_edge = find_own_edges(soup);
   for (std::uint32_t b = 0; b < soup.border_starts.size(); ++b) {
     const std::uint32_t v = id_of_point[soup.border_starts[b][0]], w = id_of_point[soup.border_starts[b][1]];
     const std::uint32_t e = v == no_index || w == no_index ? no_index : find_edge(edges, v, w);
-    bool on_line = e != no_index;
+    bool on_line = e != no_index && is_own_edge[b];
     if (on_line) {
       const auto around = edges.around(e);
       on_line = around.size() != 2 || model.triangle_surface[around[0] / 3] != model.triangle_surface[around[1] / 3];
@@ -103,7 +133,8 @@ std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeT
                           rebuild, soup.points[lost_stone], lost_stones});
   if (lost_borders > 0)
     violations.push_back({"inconsistent_border", Violation::Severity::error,
-                          std::to_string(lost_borders) + " borders (BORDER) start on no line, the first at " +
+                          std::to_string(lost_borders) +
+                              " borders (BORDER) do not start along an edge of their surface that lies on a line, the first at " +
                               point_text(soup.border_starts[lost_border][0]),
                           rebuild, soup.points[soup.border_starts[lost_border][0]], lost_borders});
   if (superfluous > 0)

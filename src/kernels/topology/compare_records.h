@@ -12,9 +12,9 @@ namespace strataflow {
 /// rebuilds the file's layers. `patch_of_surface` tells which patch each surface came from.
 void name_regions(StructuralModel& model, const TriangleSoup& soup, const std::vector<std::uint32_t>& patch_of_surface);
 
-/// Border records that lie on no minimal line are `inconsistent_border` (error: rebuilt on repair); stones in the
-/// middle of a line are `superfluous_border_stone` (warning). `id_of_point`: the model's vertex of each soup point,
-/// no_index for points no triangle uses.
+/// Border records that do not start along an edge of their own surface on a minimal line, and stones on no line, are
+/// `inconsistent_border` (error: rebuilt on repair); stones in the middle of a line are `superfluous_border_stone`
+/// (warning). `id_of_point`: the model's vertex of each soup point, no_index for points no triangle uses.
 std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeTable& edges, const TriangleSoup& soup,
                                        const std::vector<std::uint32_t>& id_of_point);
 

@@ -62,9 +62,20 @@ TEST(CompareRecords, a_border_along_a_line_is_fine) {
   const auto at = [&](const Vec3& p) {
     return static_cast<std::uint32_t>(std::find(soup.points.begin(), soup.points.end(), p) - soup.points.begin());
   };
-  soup.border_stones = {at({0, 0, .5})};
-  soup.border_starts = {{at({0, 0, .5}), at({1, 0, .5})}};
+  // The shapes repeat points per triangle: the wall's upper edge runs between these two copies.
+  const std::uint32_t start = at({0, 0, .5}), end = start - 1;
+  ASSERT_EQ(soup.points[end], (Vec3{1, 0, .5}));
+  soup.border_stones = {start};
+  soup.border_starts = {{start, end}};
   EXPECT_TRUE(build_structural_model(soup)->violations.empty());
+}
+
+TEST(CompareRecords, a_border_between_copies_that_no_triangle_joins_is_inconsistent) {
+  TriangleSoup soup = two_named_layers();
+  const auto start = static_cast<std::uint32_t>(std::find(soup.points.begin(), soup.points.end(), Vec3{0, 0, .5}) - soup.points.begin());
+  soup.points.push_back({1, 0, .5});
+  soup.border_starts = {{start, static_cast<std::uint32_t>(soup.points.size() - 1)}};
+  EXPECT_EQ(count_of(build_structural_model(soup)->violations, "inconsistent_border"), 1u);
 }
 
 TEST(CompareRecords, a_wall_that_should_part_two_regions_but_does_not_leaks) {
