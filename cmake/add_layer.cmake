@@ -37,6 +37,17 @@ function(strataflow_add_test name)
   target_link_libraries(${target} PRIVATE GTest::gtest_main GTest::gmock strataflow_warnings strataflow_sanitizers ${ARG_PRIVATE})
   target_compile_definitions(${target} PRIVATE
     STRATAFLOW_SOURCE_DIR="${PROJECT_SOURCE_DIR}" STRATAFLOW_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60
-    PROPERTIES LABELS "${name};${ARG_LABELS}" TIMEOUT 600)
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 TEST_LIST ${target}_names
+    PROPERTIES TIMEOUT 600)
+  # A list of labels does not survive gtest_discover_tests: labels are set once the tests are known.
+  set(environment "")
+  if(STRATAFLOW_SANITIZE MATCHES "thread")
+    set(environment "TSAN_OPTIONS=suppressions=${PROJECT_SOURCE_DIR}/tests/support/tsan_suppressions.txt history_size=7")
+  endif()
+  set(properties ${CMAKE_CURRENT_BINARY_DIR}/${target}_properties.cmake)
+  file(WRITE ${properties}
+    "foreach(test IN LISTS ${target}_names)\n"
+    "  set_tests_properties(\${test} PROPERTIES LABELS \"${name};${ARG_LABELS}\" ENVIRONMENT \"${environment}\")\n"
+    "endforeach()\n")
+  set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${properties})
 endfunction()

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -36,8 +37,10 @@ class ArchiveWriter {
 
  private:
   void put_memory(const void* data, std::size_t size) {
-    const auto* first = static_cast<const std::byte*>(data);
-    bytes_.insert(bytes_.end(), first, first + size);
+    const std::size_t before = bytes_.size();
+    if (before + size > bytes_.capacity()) bytes_.reserve(std::max(before + size, 2 * bytes_.capacity()));
+    bytes_.resize(before + size);
+    if (size > 0) std::memcpy(bytes_.data() + before, data, size);
   }
   template <class T>
   void put(const T& value) {

@@ -1,0 +1,134 @@
+#include "io/read_input.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <utility>
+#include <vector>
+
+#include "io/combine_inputs.h"
+#include "io/input_file.h"
+#include "io/read_gmsh.h"
+#include "io/read_gocad.h"
+#include "io/read_medit.h"
+#include "io/read_obj.h"
+#include "io/read_off.h"
+#include "io/read_ply.h"
+#include "io/read_stl.h"
+#include "io/read_ucd.h"
+#include "io/read_vtk_legacy.h"
+#include "io/read_vtk_xml.h"
+#include "io/tar_members.h"
+
+namespace strataflow {
+
+namespace {
+
+// One row per ending; a reader has the signature Result<InputData> read_<format>(bytes, file_name).
+constexpr std::array formats{
+    InputFormat{"ml", "GOCAD Model3d", read_gocad},
+    InputFormat{"ts", "GOCAD TSurf", read_gocad},
+    InputFormat{"pl", "GOCAD PLine", read_gocad},
+    InputFormat{"vs", "GOCAD VSet", read_gocad},
+    InputFormat{"wl", "GOCAD Well", read_gocad},
+    InputFormat{"so", "GOCAD TSolid", read_gocad},
+    InputFormat{"lso", "GOCAD LightTSolid", read_gocad},
+    InputFormat{"gocad", "GOCAD objects", read_gocad},
+    InputFormat{"obj", "Wavefront OBJ", read_obj},
+    InputFormat{"off", "Object File Format", read_off},
+    InputFormat{"ply", "Stanford PLY, ascii or binary", read_ply},
+    InputFormat{"stl", "STL, ascii or binary", read_stl},
+    InputFormat{"vtk", "legacy VTK", read_vtk_legacy},
+    InputFormat{"vtp", "VTK XML surfaces", read_vtk_xml},
+    InputFormat{"vtu", "VTK XML volume mesh", read_vtk_xml},
+    InputFormat{"mesh", "MEDIT mesh", read_medit},
+    InputFormat{"msh", "Gmsh 2.2 or 4.1", read_gmsh},
+    InputFormat{"inp", "AVS UCD", read_ucd},
+};
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+bool ends_with(const std::string& text, std::string_view ending) {
+  return text.size() >= ending.size() && std::string_view(text).substr(text.size() - ending.size()) == ending;
+}
+
+std::string ending_of(std::string name) {
+  name = lower_case(std::move(name));
+  if (ends_with(name, ".gz")) name.resize(name.size() - 3);
+  const std::size_t dot = name.find_last_of("./");
+  return dot == std::string::npos || name[dot] == '/' ? std::string() : name.substr(dot + 1);
+}
+
+bool starts_like_gocad(std::string_view bytes) {
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && bytes.substr(first, 6) == "GOCAD ";
+}
+
+const InputFormat* format_of(const std::string& ending) {
+  for (const InputFormat& format : formats)
+    if (format.ending == ending) return &format;
+  return nullptr;
+}
+
+Failure unknown_ending(const std::string& file_name, const std::string& ending) {
+  std::string known;
+  for (const InputFormat& format : formats) known += (known.empty() ? "." : " .") + std::string(format.ending);
+  return Failure{
+      FailureCode::unsupported,
+      file_name + ": " + (ending.empty() ? "a file without an ending" : "files ending in ." + ending) + " are not read",
+      "supported are " + known + ", each also gzipped (.gz), and .tar, .tar.gz, .tgz archives of them"};
+}
+
+Result<InputData> read_archive(std::string_view bytes, const std::string& file_name) {
+  const Result<std::vector<TarMember>> members = tar_members(bytes, file_name);
+  if (!members) return members.failure();
+  std::vector<InputData> parts;
+  std::vector<Warning> skipped;
+  for (const TarMember& member : *members) {
+    const std::string name = file_name + "/" + member.name;
+    if (!format_of(ending_of(member.name))) {
+      skipped.push_back({"skipped_member", name + ": is not of a format that is read"});
+      continue;
+    }
+    std::string unpacked;
+    std::string_view content = member.content;
+    if (is_gzip(content)) {
+      Result<std::string> text = unpack_gzip(content, name);
+      if (!text) return text.failure();
+      content = unpacked = std::move(*text);
+    }
+    Result<InputData> part = read_input_bytes(content, name);
+    if (!part) return part;
+    parts.push_back(std::move(*part));
+  }
+  if (parts.empty())
+    return Failure{FailureCode::malformed_file, file_name + ": the archive holds no file that can be read",
+                   "put model or surface files into it"};
+  InputData all = combine_inputs(std::move(parts));
+  all.warnings.insert(all.warnings.end(), skipped.begin(), skipped.end());
+  return all;
+}
+
+}  // namespace
+
+std::span<const InputFormat> input_formats() { return formats; }
+
+Result<InputData> read_input_bytes(std::string_view bytes, const std::string& file_name) {
+  const std::string ending = ending_of(file_name);
+  if (ending == "tar" || ending == "tgz") return read_archive(bytes, file_name);
+  if (starts_like_gocad(bytes)) return read_gocad(bytes, file_name);
+  const InputFormat* format = format_of(ending);
+  if (!format) return unknown_ending(file_name, ending);
+  return format->read(bytes, file_name);
+}
+
+Result<InputData> read_input(const std::filesystem::path& path) {
+  const Result<std::string> text = read_input_text(path);
+  if (!text) return text.failure();
+  return read_input_bytes(*text, path.filename().string());
+}
+
+}  // namespace strataflow

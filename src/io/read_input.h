@@ -1,0 +1,31 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/result.h"
+#include "model/input_data.h"
+
+namespace strataflow {
+
+/// One line of the table of formats: file endings are lower case, without the dot.
+struct InputFormat {
+  std::string_view ending;
+  std::string_view description;
+  Result<InputData> (*read)(std::string_view bytes, const std::string& file_name);
+};
+
+/// Every format read_input knows, in the order shown to a user.
+std::span<const InputFormat> input_formats();
+
+/// Reads any supported file, gzipped or not, and .tar / .tar.gz / .tgz archives of such files (in archive order).
+/// The ending decides; content that starts like a GOCAD object is read as GOCAD whatever the ending.
+/// Coordinates are the file's own (`local_origin` is zero), z up. Messages name the file without its folder.
+/// Fails with: unreadable_file, malformed_file, unsupported.
+Result<InputData> read_input(const std::filesystem::path& path);
+
+/// The same for bytes that are in memory (unpacked already); `file_name` gives the ending.
+Result<InputData> read_input_bytes(std::string_view bytes, const std::string& file_name);
+
+}  // namespace strataflow

@@ -1,0 +1,6 @@
+#include "io/read_obj.h"
+#include "mesh_reader_contract.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return strataflow::check_mesh_reader(strataflow::read_obj, "fuzz.obj", data, size);
+}
