@@ -21,7 +21,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string resolved = resolved_job_text((*jobs)[i], "/nowhere/out");
     const Result<std::vector<Job>> again = read_jobs_from_text(resolved, "again.toml", "/nowhere/out");
     STRATAFLOW_ASSERT(again, "the resolved job does not read: " + again.failure().what);
-    STRATAFLOW_ASSERT(resolved_job_text(again->front(), "/nowhere/out") == resolved, "the resolved job reads differently");
+    STRATAFLOW_ASSERT(resolved_job_text(again->front(), "/nowhere/out") == resolved,
+                      "the resolved job reads differently");
   }
   return 0;
 }

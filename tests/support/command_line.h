@@ -40,7 +40,8 @@ inline CommandOutcome strataflow(const std::vector<std::string>& arguments, cons
     for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return result + "'";
   };
-  std::string command = "unset XDG_CACHE_HOME; HOME=" + quoted(scratch.path().string()) + " NO_COLOR=1 " + quoted(program().string());
+  std::string command =
+      "unset XDG_CACHE_HOME; HOME=" + quoted(scratch.path().string()) + " NO_COLOR=1 " + quoted(program().string());
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command += redirect.empty() ? " >" + quoted((scratch.path() / "out").string()) : " " + redirect;
   command += " 2>" + quoted((scratch.path() / "err").string());

@@ -198,7 +198,7 @@ void report_inserted_points(const Job& job, const SurfaceTriangles& before, cons
       const std::uint32_t s = surface_of[p];
       what += "surface " + std::to_string(s) + " (" + job.model.entities[job.model.surfaces[s].entity].name + ")";
     }
-    changes.push_back({"inserted surface point", what, why});
+    changes.push_back({"inserted_surface_point", what, why});
   }
 }
 
@@ -231,7 +231,7 @@ Result<FilledRegions> fill_regions(const StructuralModel& model, const Tetrahedr
       is_waiting[r] = 0;
       if (!fillings[i].rejected.empty())
         filled.changes.push_back(
-            {"repeated region", job.name_of(r) + ": " + fillings[i].taken, joined(fillings[i].rejected)});
+            {"repeated_region", job.name_of(r) + ": " + fillings[i].taken, joined(fillings[i].rejected)});
     }
     // Those that resisted, one after the other: each may change the surfaces of the next.
     for (std::size_t i = 0; i < waiting.size(); ++i) {
@@ -244,7 +244,7 @@ Result<FilledRegions> fill_regions(const StructuralModel& model, const Tetrahedr
       std::vector<std::string> reasons = fillings[i].rejected;
       reasons.insert(reasons.end(), split.filling.rejected.begin(), split.filling.rejected.end());
       if (!split.filling.mesh) return cannot_fill(job, r, reasons);
-      filled.changes.push_back({"split surfaces", job.name_of(r) + ": " + split.filling.taken, joined(reasons)});
+      filled.changes.push_back({"split_surfaces", job.name_of(r) + ": " + split.filling.taken, joined(reasons)});
       report_inserted_points(job, filled.surfaces, split.surfaces, job.name_of(r) + " could not be filled otherwise",
                              filled.changes);
       for (std::size_t t = 0; t < split.changed.size(); ++t) {

@@ -51,7 +51,7 @@ VolumeMesh merged_regions(const StructuralModel& model, FilledRegions filled) {
   for (std::size_t s = 0; s < model.surfaces.size(); ++s)
     if (model.surfaces[s].region_minus == universe && model.surfaces[s].region_plus == universe)
       mesh.changes.push_back(
-          {"skipped surface",
+          {"skipped_surface",
            "surface " + std::to_string(s) + " (" + model.entities[model.surfaces[s].entity].name + ")",
            "it lies outside every region"});
   return mesh;

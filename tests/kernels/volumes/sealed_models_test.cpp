@@ -42,7 +42,7 @@ TEST_P(SealedModels, are_filled_with_their_surfaces_kept) {
   support::expect_valid(*mesh, model_);
   support::expect_model_points_kept(*mesh, model_);
   for (const Change& change : mesh->changes) {
-    EXPECT_EQ(change.kind, "repeated region") << change.what;
+    EXPECT_EQ(change.kind, "repeated_region") << change.what;
     RecordProperty("change", change.what + " after " + change.why);
   }
   EXPECT_EQ(mesh->facets.size(), model_.triangles.size());

@@ -73,9 +73,9 @@ TEST_F(SplitSurfaces, neighbours_take_the_points_that_one_region_puts_on_the_com
     support::expect_valid(mesh, model);
     support::expect_model_points_kept(mesh, model);
     ASSERT_EQ(mesh.changes.size(), inserted + 1);
-    EXPECT_EQ(mesh.changes[0].kind, "split surfaces");
+    EXPECT_EQ(mesh.changes[0].kind, "split_surfaces");
     EXPECT_THAT(mesh.changes[0].what, HasSubstr("(" + std::to_string(stubborn) + ")"));
-    for (std::size_t i = 1; i < mesh.changes.size(); ++i) EXPECT_EQ(mesh.changes[i].kind, "inserted surface point");
+    for (std::size_t i = 1; i < mesh.changes.size(); ++i) EXPECT_EQ(mesh.changes[i].kind, "inserted_surface_point");
   }
 }
 

@@ -106,7 +106,7 @@ TEST(TetrahedralizeModel, a_fault_that_hangs_outside_the_model_is_left_out_and_n
   ASSERT_TRUE(mesh) << describe(mesh.failure());
   EXPECT_EQ(mesh->facets.size(), 12u);
   ASSERT_EQ(mesh->changes.size(), 1u);
-  EXPECT_EQ(mesh->changes[0].kind, "skipped surface");
+  EXPECT_EQ(mesh->changes[0].kind, "skipped_surface");
   EXPECT_THAT(mesh->changes[0].what, HasSubstr("stray"));
 }
 

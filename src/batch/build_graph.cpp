@@ -1,0 +1,93 @@
+#include "batch/build_graph.h"
+
+#include <algorithm>
+
+#include "stages/build_model_stage.h"
+#include "stages/check_mesh_stage.h"
+#include "stages/check_validity_stage.h"
+#include "stages/combine_stage.h"
+#include "stages/generate_stage.h"
+#include "stages/read_stage.h"
+#include "stages/tetrahedralize_stage.h"
+
+namespace strataflow {
+
+namespace {
+
+/// Adds a job's nodes to the graph and remembers their names.
+class JobWirer {
+ public:
+  JobWirer(StageGraph& graph, WiredJob& wired) : graph_(graph), wired_(wired) {}
+
+  template <class Stage, class... Wires>
+  auto add(std::string name, Stage stage, const Wires&... wires) {
+    const auto is_taken = [&](const std::string& other) {
+      return std::any_of(wired_.nodes.begin(), wired_.nodes.end(),
+                         [&](const auto& node) { return node.first == other; });
+    };
+    std::string unique = name;
+    for (int copy = 2; is_taken(unique); ++copy) unique = name + "#" + std::to_string(copy);
+    const auto port = graph_.add(unique, std::move(stage), wires...);
+    wired_.nodes.emplace_back(std::move(unique), port.node());
+    return port;
+  }
+
+ private:
+  StageGraph& graph_;
+  WiredJob& wired_;
+};
+
+Port<InputData> wire_input(JobWirer& wirer, const Job& job, const JobInput& input) {
+  if (input.model)
+    return wirer.add("generate/" + *input.model, Generate{{*input.model, input.resolution_m, input.raw_ratio}});
+  const std::filesystem::path path = job.input_path(input);
+  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role}, path});
+}
+
+WiredJob wire_job(StageGraph& graph, const Job& job) {
+  WiredJob wired;
+  JobWirer wirer(graph, wired);
+  graph.set_job_seed(static_cast<std::uint64_t>(job.header.seed));
+
+  std::vector<Port<InputData>> inputs;
+  for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
+  const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
+  const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, input);
+  const bool must_be_sealed = job.cut.mode != "never" || job.makes("tets");
+  wired.model = model;
+  const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
+  wired.validity = validity;
+  if (job.makes("tets")) {
+    const Port<VolumeMesh> tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, model, validity);
+    wired.tets = tets;
+    wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, model, tets);
+    wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, tets);
+  }
+  // Last: pictures wait for idle threads rather than the other way round.
+  wired.model_pictures = wirer.add("draw_model", DrawModel{}, model);
+  return wired;
+}
+
+}  // namespace
+
+std::vector<NodeId> WiredJob::wanted() const {
+  std::vector<NodeId> ids;
+  const auto take = [&](const auto& port) {
+    if (port) ids.push_back(port->node());
+  };
+  take(model);
+  take(validity);
+  take(model_pictures);
+  take(tets);
+  take(tets_quality);
+  take(tets_pictures);
+  return ids;
+}
+
+std::vector<WiredJob> build_graph(StageGraph& graph, const std::vector<Job>& jobs) {
+  std::vector<WiredJob> wired;
+  for (const Job& job : jobs) wired.push_back(wire_job(graph, job));
+  return wired;
+}
+
+}  // namespace strataflow

@@ -1,0 +1,34 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "batch/job.h"
+#include "graph/stage_graph.h"
+#include "kernels/quality/analyze_volume_mesh.h"
+#include "model/built_model.h"
+#include "model/volume_mesh.h"
+#include "stages/draw_stage.h"
+
+namespace strataflow {
+
+/// Where a job's stages and data are in the shared graph.
+struct WiredJob {
+  /// The job's nodes by the names they have in its report, in the order they were wired. A node shared with another
+  /// job may be called differently in the graph.
+  std::vector<std::pair<std::string, NodeId>> nodes;
+  std::optional<Port<BuiltModel>> model;
+  std::optional<Port<ValidityReport>> validity;
+  std::optional<Port<Pictures>> model_pictures;
+  std::optional<Port<VolumeMesh>> tets;
+  std::optional<Port<VolumeQualityReport>> tets_quality;
+  std::optional<Port<Pictures>> tets_pictures;
+
+  std::vector<NodeId> wanted() const;
+};
+
+/// Wires every job into one graph: what two jobs have in common is one node. Result: one WiredJob per job.
+std::vector<WiredJob> build_graph(StageGraph& graph, const std::vector<Job>& jobs);
+
+}  // namespace strataflow

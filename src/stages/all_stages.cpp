@@ -1,0 +1,88 @@
+#include "stages/all_stages.h"
+
+#include "stages/build_model_stage.h"
+#include "stages/check_mesh_stage.h"
+#include "stages/check_validity_stage.h"
+#include "stages/combine_stage.h"
+#include "stages/draw_stage.h"
+#include "stages/generate_stage.h"
+#include "stages/read_stage.h"
+#include "stages/tetrahedralize_stage.h"
+
+namespace strataflow {
+
+template <>
+struct DataName<InputData> {
+  static constexpr std::string_view text = "input data";
+};
+template <>
+struct DataName<BuiltModel> {
+  static constexpr std::string_view text = "structural model";
+};
+template <>
+struct DataName<ValidityReport> {
+  static constexpr std::string_view text = "validity report";
+};
+template <>
+struct DataName<Pictures> {
+  static constexpr std::string_view text = "pictures";
+};
+template <>
+struct DataName<VolumeMesh> {
+  static constexpr std::string_view text = "volume mesh";
+};
+template <>
+struct DataName<VolumeQualityReport> {
+  static constexpr std::string_view text = "mesh quality";
+};
+
+std::vector<StageDescription> all_stages() {
+  return {
+      describe_stage<Read>("Reads one input file", "[[input]]"),
+      describe_stage<Generate>("Makes a reference model instead of reading one", "[[input]]"),
+      describe_stage<Combine>("Puts the inputs together and moves them near the origin", ""),
+      describe_stage<BuildModel>("Finds corners, lines, surfaces and regions", ""),
+      describe_stage<CheckValidity>("Judges the model by the validity rules", "[cut]"),
+      describe_stage<DrawModel>("Draws the model by entity, by region, and with its regions moved apart", ""),
+      describe_stage<Tetrahedralize>("Fills every region with tetrahedra that conform to all surfaces",
+                                     "[tetrahedralize]"),
+      describe_stage<CheckMesh>("Measures the mesh and holds it against the model", ""),
+      describe_stage<DrawMesh>("Draws the mesh cut open along the faces of its cells", ""),
+  };
+}
+
+namespace {
+
+std::string cell(const std::string& text) {
+  std::string escaped;
+  for (const char c : text) escaped += c == '|' ? std::string("\\|") : std::string(1, c);
+  return escaped;
+}
+
+}  // namespace
+
+std::string stages_as_markdown() {
+  std::string text =
+      "# Stages\n\n"
+      "Written by `strataflow stages --markdown`; a test compares. Options are set in the section of the job file "
+      "that\n"
+      "is named beside them (configs/README.md).\n";
+  for (const StageDescription& stage : all_stages()) {
+    text += "\n## " + stage.name + "\n\n" + stage.summary + ".\n\n";
+    std::string inputs;
+    for (const std::string& input : stage.inputs) inputs += (inputs.empty() ? "" : ", ") + input;
+    text += "- inputs: " + (inputs.empty() ? std::string("none") : inputs) + "\n- output: " + stage.output +
+            "\n- version: " + std::to_string(stage.version) + "\n";
+    if (stage.uses_seed) text += "- draws random numbers from `job.seed`\n";
+    if (stage.options.empty()) continue;
+    text += "- section: `" + stage.section +
+            "`\n\n| option | type | unit | default | domain | meaning |\n| --- | --- | --- | --- | --- | --- |\n";
+    for (const OptionDescription& option : stage.options)
+      text += "| `" + option.name + "` | " + option.type + " | " + option.unit + " | " +
+              (option.default_value.empty() ? "absent" : "`" + cell(option.default_value) + "`") + " | " +
+              cell(option.domain) + " | " + cell(option.description) + " |\n";
+  }
+  return text;
+}
+
+}  // namespace strataflow

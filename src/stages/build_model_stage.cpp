@@ -1,0 +1,16 @@
+#include "stages/build_model_stage.h"
+
+#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/check_validity.h"
+
+namespace strataflow {
+
+Result<BuiltModel> BuildModel::operator()(const InputData& input, StageContext& context) const {
+  Result<BuiltModel> built = build_structural_model(input.surfaces);
+  if (built)
+    for (const Violation& violation : built->violations)
+      if (is_mended_by_building(violation)) context.warn(violation.kind, violation.what + "; mended by building anew");
+  return built;
+}
+
+}  // namespace strataflow

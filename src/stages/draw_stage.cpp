@@ -1,0 +1,54 @@
+#include "stages/draw_stage.h"
+
+#include "io/write_png.h"
+#include "kernels/drawing/build_scene.h"
+#include "kernels/drawing/render.h"
+
+namespace strataflow {
+
+namespace {
+
+Result<void> draw(Pictures& pictures, const Scene& scene, const std::string& caption, const ViewOptions& view) {
+  if (scene.triangles.empty()) return {};
+  const Image image = render(scene, view);
+  Result<std::vector<std::byte>> png = encode_png(image.width, image.height, image.rgb);
+  if (!png) return png.failure();
+  const int exaggeration = static_cast<int>(automatic_exaggeration(scene));
+  pictures.pictures.push_back({caption + (exaggeration > 1 ? ", heights × " + std::to_string(exaggeration) : ""),
+                               *std::move(png), scene.legend});
+  return {};
+}
+
+ViewOptions page_view() {
+  ViewOptions view;
+  view.width = 900;
+  view.height = 600;
+  return view;
+}
+
+}  // namespace
+
+Result<Pictures> DrawModel::operator()(const BuiltModel& built, StageContext&) const {
+  const StructuralModel& model = built.model;
+  Pictures pictures;
+  ViewOptions open = page_view();
+  open.opens_front = true;
+  Result<void> drawn = draw(pictures, scene_of_model(model, ColourBy::entity), "By entity, opened at the front", open);
+  if (drawn && !model.regions.empty()) {
+    drawn = draw(pictures, scene_of_model(model, ColourBy::region), "By region", page_view());
+    if (drawn) drawn = draw(pictures, scene_of_exploded_regions(model), "Regions moved apart", page_view());
+  }
+  if (!drawn) return drawn.failure();
+  return pictures;
+}
+
+Result<Pictures> DrawMesh::operator()(const VolumeMesh& mesh, StageContext&) const {
+  Pictures pictures;
+  const ViewOptions view = page_view();
+  const Scene scene = scene_of_volume_mesh(mesh, middle_cut(mesh, view.azimuth_deg));
+  if (const Result<void> drawn = draw(pictures, scene, "Cut open along the faces of the cells", view); !drawn)
+    return drawn.failure();
+  return pictures;
+}
+
+}  // namespace strataflow

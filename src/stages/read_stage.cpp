@@ -1,0 +1,51 @@
+#include "stages/read_stage.h"
+
+#include <utility>
+
+#include "base/archive.h"
+#include "base/atomic_file.h"
+#include "io/read_input.h"
+
+namespace strataflow {
+
+Result<void> rename_input(InputData& data, const ReadOptions& options) {
+  if (options.role) {
+    const Role role = role_from(*options.role).value_or(Role::unknown);
+    for (Entity& entity : data.surfaces.entities) entity.role = role;
+    for (Polyline& line : data.lines) line.role = role;
+    for (PointSet& set : data.point_sets) set.role = role;
+  }
+  if (options.name) {
+    const std::size_t things = data.surfaces.entities.size() + data.lines.size() + data.point_sets.size();
+    if (things != 1)
+      return Failure{FailureCode::invalid_options,
+                     "name = \"" + *options.name + "\" is given to a file that holds " + std::to_string(things) +
+                         " surfaces, lines and point sets",
+                     "remove the name, or keep one of them per file"};
+    for (Entity& entity : data.surfaces.entities) entity.name = *options.name;
+    for (Polyline& line : data.lines) line.name = *options.name;
+    for (PointSet& set : data.point_sets) set.name = *options.name;
+  }
+  return {};
+}
+
+Result<Digest> Read::external_digest() const {
+  const Result<std::string> content = read_file(file);
+  if (!content) return content.failure();
+  ArchiveWriter key;
+  const Digest digest = digest_of(*content);
+  key(digest.high, digest.low, file.filename().string());
+  return digest_of(key.bytes());
+}
+
+Result<InputData> Read::operator()(StageContext& context) const {
+  Result<InputData> data = read_input(file);
+  if (!data) return data.failure();
+  if (const Result<void> renamed = rename_input(*data, options); !renamed)
+    return Failure{renamed.failure().code, file.filename().string() + ": " + renamed.failure().what,
+                   renamed.failure().remedy};
+  context.warn(std::exchange(data->warnings, {}));
+  return data;
+}
+
+}  // namespace strataflow

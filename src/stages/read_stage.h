@@ -1,0 +1,44 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "base/digest.h"
+#include "base/option_field.h"
+#include "base/result.h"
+#include "graph/stage_context.h"
+#include "model/input_data.h"
+
+namespace strataflow {
+
+/// What a job says about one input file.
+struct ReadOptions {
+  std::optional<std::string> name;  ///< overrides the name of the one thing the file holds
+  std::optional<std::string> role;  ///< a word of Role; overrides what the file says its contents are
+  template <class Visitor>
+  void visit_fields(Visitor& visit) {
+    visit(name, OptionField{.name = "name", .description = "Overrides the name the file carries"});
+    visit(role, OptionField{.name = "role",
+                            .description = "Overrides what the file says its surfaces, lines or points are",
+                            .words = {"fault", "horizon", "unconformity", "boundary", "intrusion", "well", "points",
+                                      "outline", "hole", "curve"}});
+  }
+};
+
+/// Gives everything in `data` that role, and the one thing in it that name. Fails with invalid_options when a name is
+/// to be given to several things.
+Result<void> rename_input(InputData& data, const ReadOptions& options);
+
+/// Reads one input file. Its key holds the file's content and name, not its folder.
+struct Read {
+  static constexpr std::string_view name = "read";
+  static constexpr int version = 1;
+  ReadOptions options;
+  std::filesystem::path file;  ///< absolute
+
+  Result<Digest> external_digest() const;
+  std::string external_identity() const { return file.string(); }
+  Result<InputData> operator()(StageContext& context) const;
+};
+
+}  // namespace strataflow
