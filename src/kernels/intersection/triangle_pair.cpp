@@ -93,13 +93,16 @@ PairMeeting meeting_of_disjoint(const Corners& a, const Corners& b) {
   return as_meeting(strength);
 }
 
-/// In one plane with a common apex [0]: the triangle lies strictly beyond the line of one ray of the wedge. This
-/// settles almost all neighbours on the flat sides of a box.
+/// In one plane with a common apex [0]: the triangle lies beyond the line of one ray of the wedge, or has an edge on
+/// that line which leads away from the ray. This settles almost all neighbours on the flat sides of a box.
 bool is_beyond_a_ray(const Corners& wedge, int turn, const Corners& t, int axis) {
-  const auto outside = [&](const Vec3& end, int way) {
-    return way * orientation_2d(*wedge[0], end, *t[1], axis) < 0 && way * orientation_2d(*wedge[0], end, *t[2], axis) < 0;
+  const Vec3& apex = *wedge[0];
+  const auto beyond = [&](const Vec3& end, int way, const Vec3& p) {
+    const int side = way * orientation_2d(apex, end, p, axis);
+    return side < 0 || (side == 0 && lexicographically_less(p, apex) != lexicographically_less(end, apex));
   };
-  return outside(*wedge[1], turn) || outside(*wedge[2], -turn);
+  return (beyond(*wedge[1], turn, *t[1]) && beyond(*wedge[1], turn, *t[2])) ||
+         (beyond(*wedge[2], -turn, *t[1]) && beyond(*wedge[2], -turn, *t[2]));
 }
 
 /// a[0] and b[0] are the shared vertex. Whatever else is shared reaches an opposite edge, because both are convex.
