@@ -171,7 +171,12 @@ TEST(BuildStructuralModel, order_orientation_and_rigid_motion_change_no_count_an
 TEST(BuildStructuralModel, gives_the_same_bytes_on_every_schedule) {
   const TriangleSoup soup = disturbed(support::layered_box({0, 0.1, 0.2, 0.4, 1}), 3);
   const Digest expected = digest_of(archived(built(soup)));
-  support::on_every_schedule([&](const char* schedule) { EXPECT_EQ(digest_of(archived(built(soup))), expected) << schedule; });
+  const Digest judged = digest_of(archived(check_validity(built(soup))));
+  support::on_every_schedule([&](const char* schedule) {
+    const BuiltModel whole = built(soup);
+    EXPECT_EQ(digest_of(archived(whole)), expected) << schedule;
+    EXPECT_EQ(digest_of(archived(check_validity(whole))), judged) << schedule;
+  });
 }
 
 TEST(BuildStructuralModel, archives_and_comes_back) {
