@@ -1,4 +1,3 @@
-#include "base/atomic_file.h"
 #include "batch/check_model.h"
 #include "batch/convert.h"
 #include "batch/report_json.h"
@@ -13,9 +12,7 @@ namespace {
 
 /// Writes the model as it was built, and says what that mended. Violations that only the file had are then gone.
 int repair(const CheckedModel& checked, const std::filesystem::path& out) {
-  const Result<std::string> content = encode_model(checked.built.model, ending_of(out), out.stem().string());
-  if (!content) return report_failure(content.failure());
-  if (const Result<void> written = write_file_atomically(out, *content); !written)
+  if (const Result<void> written = write_model(out, checked.built.model); !written)
     return report_failure(written.failure());
   std::string text = "wrote " + out.string() + "\n";
   bool is_valid = true;
@@ -38,7 +35,7 @@ int repair(const CheckedModel& checked, const std::filesystem::path& out) {
 
 int check_command(const CheckArguments& arguments) {
   // An ending that cannot be written is known before any work.
-  if (arguments.repair)
+  if (arguments.repair && ending_of(*arguments.repair) != ".sfm")
     if (const Result<std::string> tried = encode_model({}, ending_of(*arguments.repair), ""); !tried)
       return report_failure({FailureCode::invalid_usage, "--repair: " + tried.failure().what, tried.failure().remedy});
   const ScheduleScope threads(ScheduleKind::threads);

@@ -44,6 +44,9 @@ std::string triangle_text(const std::string& file, const TriangleQualityReport& 
 }  // namespace
 
 int quality_command(const QualityArguments& arguments) {
+  if (arguments.patch_test)
+    return report_failure({FailureCode::invalid_usage, "--patch-test is not available in this version",
+                           "leave it out: quality and validity are measured without it"});
   const ScheduleScope threads(ScheduleKind::threads);
   int exit_code = 0;
   std::vector<std::string> reports;

@@ -50,6 +50,7 @@ int stages_command(const StagesArguments& arguments);
 struct QualityArguments {
   std::vector<std::filesystem::path> files;
   bool json = false;
+  bool patch_test = false;
 };
 int quality_command(const QualityArguments& arguments);
 

@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <csignal>
 #include <exception>
 
+#include "batch/closest_word.h"
 #include "batch/program_version.h"
 #include "commands.h"
 #include "terminal.h"
@@ -63,6 +65,7 @@ void add_quality(CLI::App& app, QualityArguments& arguments) {
   CLI::App* command = app.add_subcommand("quality", "Measure meshes and check that they are valid");
   command->add_option("MESH", arguments.files, "Mesh files")->required();
   command->add_flag("--json", arguments.json, "As JSON");
+  command->add_flag("--patch-test", arguments.patch_test, "Solve a patch test on the cells (not in this version)");
 }
 
 void add_diff(CLI::App& app, DiffArguments& arguments) {
@@ -94,15 +97,9 @@ std::string version_text() {
 int run_program(int argc, char** argv) {
   CLI::App app("Meshes geological structural models in batch: the same bits on any number of threads");
   app.require_subcommand(1);
-  bool wants_version = false;
   // Not CLI11's own version flag: that one throws its text at the first line only.
   app.add_flag_callback(
-      "--version",
-      [&] {
-        wants_version = true;
-        throw CLI::CallForVersion(version_text(), 0);
-      },
-      "Print our version and that of every library");
+      "--version", [] { throw CLI::CallForVersion(version_text(), 0); }, "Print our version and that of every library");
   RunArguments run;
   CheckArguments check;
   GraphArguments graph;
@@ -122,10 +119,20 @@ int run_program(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    std::vector<std::string_view> commands;
+    for (const CLI::App* command : app.get_subcommands({})) commands.push_back(command->get_name());
+    if (!first.empty() && first[0] != '-' && std::find(commands.begin(), commands.end(), first) == commands.end())
+      return report_failure(
+          {FailureCode::invalid_usage, "unknown command '" + std::string(first) + "'", suggestion(first, commands)});
     // Help and version are results; everything else is wrong usage.
     return app.exit(error) == 0 ? 0 : 2;
   }
-  if (app.got_subcommand("run")) return run_command(run, cancellation);
+  if (app.got_subcommand("run")) {  // the other commands do not look at the token: a signal ends them at once
+    std::signal(SIGINT, ask_to_stop);
+    std::signal(SIGTERM, ask_to_stop);
+    return run_command(run, cancellation);
+  }
   if (app.got_subcommand("check")) return check_command(check);
   if (app.got_subcommand("graph")) return graph_command(graph);
   if (app.got_subcommand("stages")) return stages_command(stages);
@@ -138,8 +145,6 @@ int run_program(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::signal(SIGINT, ask_to_stop);
-  std::signal(SIGTERM, ask_to_stop);
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is no reason to die halfway
   try {
     return run_program(argc, argv);

@@ -44,7 +44,7 @@ void limit_resources(std::uint64_t memory_limit_mb) {
   const rlimit no_core{0, 0};
   ::setrlimit(RLIMIT_CORE, &no_core);
 #if !defined(__SANITIZE_ADDRESS__)  // the sanitizer's shadow needs terabytes of addresses
-  if (memory_limit_mb == 0) return;
+  if (memory_limit_mb == 0 || memory_limit_mb >= RLIM_INFINITY >> 20) return;
   const rlim_t bytes = static_cast<rlim_t>(memory_limit_mb) << 20;
   const rlimit memory{bytes, bytes};
   ::setrlimit(RLIMIT_AS, &memory);

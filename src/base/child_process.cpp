@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -63,7 +64,9 @@ Result<ChildOutcome> run_child_process(const std::filesystem::path& program, con
 
   ChildOutcome outcome;
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(timeout_s));
+  constexpr double longest_s = 1e9;  // thirty years; a longer limit would not fit the clock's nanoseconds
+  const std::chrono::duration<double> limit(std::min(timeout_s, longest_s));
+  const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
   std::size_t sent = 0;
   if (input.empty()) to_child.close(1);
   std::array<std::byte, 65536> buffer;
@@ -75,7 +78,10 @@ Result<ChildOutcome> run_child_process(const std::filesystem::path& program, con
       break;
     }
     std::array<pollfd, 2> waiting{{{from_child.ends[0], POLLIN, 0}, {to_child.ends[1], POLLOUT, 0}}};
-    if (::poll(waiting.data(), to_child.ends[1] >= 0 ? 2 : 1, 100) < 0 && errno != EINTR) break;
+    if (::poll(waiting.data(), to_child.ends[1] >= 0 ? 2 : 1, 100) < 0 && errno != EINTR) {
+      ::kill(child, SIGKILL);  // nobody would read its answer
+      break;
+    }
     if (to_child.ends[1] >= 0 && waiting[1].revents != 0) {
       const ssize_t n = ::send(to_child.ends[1], input.data() + sent, input.size() - sent, MSG_NOSIGNAL);
       if (n > 0) sent += static_cast<std::size_t>(n);

@@ -11,9 +11,9 @@
 namespace strataflow {
 
 Result<InputData> read_inputs(const std::vector<std::filesystem::path>& files) {
-  const auto parts = parallel_map(files.size(), [&](std::size_t i) { return std::optional(read_input(files[i])); });
+  auto parts = parallel_map(files.size(), [&](std::size_t i) { return std::optional(read_input(files[i])); });
   std::vector<InputData> data;
-  for (const auto& part : parts) {
+  for (auto& part : parts) {
     if (!*part) return part->failure();
     data.push_back(std::move(**part));
   }
@@ -26,7 +26,14 @@ Result<CheckedModel> check_model(const std::vector<std::filesystem::path>& files
   Result<InputData> input = read_inputs(files);
   if (!input) return input.failure();
   Result<BuiltModel> built = build_structural_model(input->surfaces);
-  if (!built) return built.failure();
+  if (!built) {
+    Failure failure = built.failure();
+    std::string names;
+    for (const std::filesystem::path& file : files) names += (names.empty() ? "" : ", ") + file.filename().string();
+    failure.what = names + ": " + failure.what;
+    if (input->volume.cell_count() > 0) failure.remedy = "to judge a volume mesh, run `strataflow quality` on it";
+    return failure;
+  }
   CheckedModel checked{*std::move(built), {}, std::move(input->warnings)};
   checked.validity = check_validity(checked.built);
   return checked;

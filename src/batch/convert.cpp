@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/atomic_file.h"
 #include "io/labelled_triangles.h"
+#include "io/soup_of_model.h"
 #include "io/write_abaqus.h"
 #include "io/write_gmsh.h"
 #include "io/write_gocad.h"
 #include "io/write_medit.h"
+#include "io/write_model_file.h"
 #include "io/write_obj.h"
 #include "io/write_vtk_xml.h"
 #include "kernels/topology/build_structural_model.h"
@@ -15,18 +18,6 @@
 namespace strataflow {
 
 namespace {
-
-TriangleSoup soup_of(const StructuralModel& model) {
-  TriangleSoup soup;
-  soup.local_origin = model.local_origin;
-  soup.points = model.points;
-  soup.triangles = model.triangles;
-  soup.triangle_patch = model.triangle_surface;
-  for (const Surface& surface : model.surfaces) soup.patch_entity.push_back(surface.entity);
-  soup.entities = model.entities;
-  soup.properties = model.properties;
-  return soup;
-}
 
 /// Formats of triangles, the same for a soup and a model.
 struct SurfaceFormat {
@@ -36,12 +27,19 @@ struct SurfaceFormat {
 constexpr SurfaceFormat surface_formats[] = {
     {".vtp", write_vtp}, {".obj", write_obj}, {".mesh", write_medit}, {".msh", write_gmsh}, {".inp", write_abaqus}};
 
+template <std::string (*write)(const VolumeMesh&)>
+Result<std::string> nameless(const VolumeMesh& mesh, const std::string&) {
+  return write(mesh);
+}
 struct CellFormat {
   std::string_view ending;
-  std::string (*write)(const VolumeMesh&);
+  Result<std::string> (*write)(const VolumeMesh&, const std::string& name);
 };
-constexpr CellFormat cell_formats[] = {
-    {".vtu", write_vtu}, {".mesh", write_medit}, {".msh", write_gmsh}, {".inp", write_abaqus}};
+constexpr CellFormat cell_formats[] = {{".vtu", nameless<write_vtu>},
+                                       {".mesh", nameless<write_medit>},
+                                       {".msh", nameless<write_gmsh>},
+                                       {".inp", nameless<write_abaqus>},
+                                       {".so", write_gocad_so}};
 
 Failure unknown_ending(std::string_view ending) {
   return {FailureCode::unsupported, "cannot write '" + std::string(ending) + "'", "endings: " + writable_endings()};
@@ -50,11 +48,17 @@ Failure unknown_ending(std::string_view ending) {
 }  // namespace
 
 std::string writable_endings() {
-  std::string text = ".ml, .ts";
+  std::string text = ".ml, .ts, .sfm";
   for (const SurfaceFormat& format : surface_formats) text += ", " + std::string(format.ending);
   for (const CellFormat& format : cell_formats)
     if (text.find(std::string(format.ending) + ",") == std::string::npos) text += ", " + std::string(format.ending);
   return text;
+}
+
+Result<void> can_write(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  if (!ending.empty() && (writable_endings() + ",").find(ending + ",") != std::string::npos) return {};
+  return Failure{FailureCode::invalid_usage, "cannot write " + file.string(), "endings: " + writable_endings()};
 }
 
 std::string ending_of(const std::filesystem::path& path) {
@@ -66,7 +70,7 @@ std::string ending_of(const std::filesystem::path& path) {
 
 Result<std::string> encode_model(const StructuralModel& model, std::string_view ending, const std::string& name) {
   if (ending == ".ml") return write_gocad_ml(model, name);
-  if (ending == ".ts") return write_gocad_ts(soup_of(model));
+  if (ending == ".ts") return write_gocad_ts(soup_of_model(model));
   for (const SurfaceFormat& format : surface_formats)
     if (ending == format.ending) return format.write(labelled_triangles(model));
   return unknown_ending(ending);
@@ -75,7 +79,7 @@ Result<std::string> encode_model(const StructuralModel& model, std::string_view 
 Result<std::string> encode_input(const InputData& input, std::string_view ending, const std::string& name) {
   if (input.volume.cell_count() > 0)
     for (const CellFormat& format : cell_formats)
-      if (ending == format.ending) return format.write(input.volume);
+      if (ending == format.ending) return format.write(input.volume, name);
   if (!input.surfaces.triangles.empty()) {
     if (ending == ".ts") return write_gocad_ts(input.surfaces);
     for (const SurfaceFormat& format : surface_formats)
@@ -87,11 +91,43 @@ Result<std::string> encode_input(const InputData& input, std::string_view ending
     }
   }
   Failure failure = unknown_ending(ending);
-  if (writable_endings().find(ending) != std::string::npos && !ending.empty())
+  if (can_write("x" + std::string(ending)))
     failure.what = "the input holds nothing that '" + std::string(ending) + "' can hold (" +
                    std::to_string(input.surfaces.triangles.size()) + " triangles, " +
                    std::to_string(input.volume.cell_count()) + " cells)";
   return failure;
+}
+
+std::string left_out(const InputData& input, std::string_view ending) {
+  const bool holds_cells = std::any_of(std::begin(cell_formats), std::end(cell_formats),
+                                       [&](const CellFormat& format) { return format.ending == ending; });
+  const std::size_t cells = input.volume.cell_count();
+  std::string text;
+  const auto count = [&](std::size_t number, const char* words) {
+    if (number > 0) text += (text.empty() ? "" : ", ") + std::to_string(number) + " " + words;
+  };
+  count(holds_cells ? 0 : cells, "cells");
+  count(holds_cells && cells > 0 ? input.surfaces.triangles.size() : 0, "triangles");
+  count(input.lines.size(), "lines");
+  count(input.point_sets.size(), "point sets");
+  return text;
+}
+
+Result<void> write_model(const std::filesystem::path& file, const StructuralModel& model) {
+  const std::string ending = ending_of(file);
+  if (ending == ".sfm") return write_model_file(file, model);
+  const Result<std::string> content = encode_model(model, ending, file.stem().string());
+  return content ? write_file_atomically(file, *content) : content.failure();
+}
+
+Result<void> write_input(const std::filesystem::path& file, const InputData& input, const std::string& name) {
+  const std::string ending = ending_of(file);
+  if (ending == ".sfm" && !input.surfaces.triangles.empty()) {
+    const Result<BuiltModel> built = build_structural_model(input.surfaces);
+    return built ? write_model_file(file, built->model) : built.failure();
+  }
+  const Result<std::string> content = encode_input(input, ending, name);
+  return content ? write_file_atomically(file, *content) : content.failure();
 }
 
 }  // namespace strataflow

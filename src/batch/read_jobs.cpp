@@ -119,11 +119,12 @@ void check_products(const JobValue& root, const Job& job, Problems& problems) {
   if (job.output.from == "model" && job.makes("hybrid"))
     add(problems, origin_of(root, "output", "from"), "hybrid meshes are always built on the remeshed surfaces",
         "write from = \"surfaces\", or remove it");
-  for (const std::string_view format : {"gocad", "obj"})
-    if (job.writes(format) && !job.makes("model"))
-      add(problems, origin_of(root, "output", "formats"),
-          "format '" + std::string(format) + "' is for the product 'model', which this job does not make",
-          "remove it from formats, or add the product");
+  if (job.writes("obj") && !job.makes("model"))
+    add(problems, origin_of(root, "output", "formats"),
+        "format 'obj' is for the product 'model', which this job does not make",
+        "remove it from formats, or add the product");
+  if (job.remesh.sites && job.remesh.target_edge_length_m)
+    add(problems, origin_of(root, "remesh", "sites"), "[remesh] has both sites and target_edge_length_m", "keep one");
   if (job.writes("grdecl") && !job.makes("hexes"))
     add(problems, origin_of(root, "output", "formats"),
         "format 'grdecl' is for the product 'hexes', which this job does not make", "remove it from formats");

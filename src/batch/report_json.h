@@ -6,7 +6,7 @@
 
 namespace strataflow {
 
-/// report.json (interface.md §3): everything measured, the same bytes for the same job on any schedule and machine.
+/// report.json (interface.md §3): everything measured, the same bytes for the same job and build on any schedule.
 std::string report_json(const JobReport& report);
 
 /// timing.json. `threads` is how many the run could use, `total_s` and `peak_memory_mb` are of the whole run.

@@ -67,6 +67,8 @@ std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
   if (report.tets && report.tets_quality && job.makes("tets")) {
     add("tets.vtu", write_vtu(*report.tets));
     add("tets_facets.vtp", write_facets_vtp(*report.tets));
+    if (job.writes("gocad"))
+      if (const Result<std::string> solid = write_gocad_so(*report.tets, job.header.name)) add("tets.so", *solid);
     if (job.writes("medit")) add("tets.mesh", write_medit(*report.tets));
     if (job.writes("gmsh")) add("tets.msh", write_gmsh(*report.tets));
     if (job.writes("abaqus")) add("tets.inp", write_abaqus(*report.tets));

@@ -88,6 +88,10 @@ Result<InputData> InputBuilder::finish() && {
 
   if (points.empty()) return malformed("holds no points");
   if (points.size() >= no_index) return malformed("has too many points");
+  for (const PointProperty& property : properties)
+    if (property.values.size() != points.size() * property.width)
+      return malformed("point property '" + property.name + "' has " + std::to_string(property.values.size()) +
+                       " values for " + std::to_string(points.size()) + " points");
   if (volume_.cell_count() == 0 && !(point_line.empty() && point_corner.empty()))
     warn("ignored_point_data", "'line' and 'corner' are found again from the geometry");
 

@@ -128,7 +128,7 @@ Result<Directory> read_directory(const fs::path& file) {
   return directory;
 }
 
-/// Makes sure that no later session gives ids up to `counter` again, even if this one dies before it has saved.
+/// Makes sure that no later program gives ids up to `counter` again, even if this one dies before it has saved.
 Result<void> write_counter(const fs::path& file, const FileStart& start, PermanentId counter) {
   const std::array<CounterCopy, 2>& copies = start.counters;
   const bool second = copies[0].is_valid() && (!copies[1].is_valid() || copies[1].value < copies[0].value);

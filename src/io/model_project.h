@@ -13,7 +13,7 @@
 
 namespace strataflow {
 
-/// A native model file (.sfm) during a session: every object of a StructuralModel is a section with a permanent id, a
+/// A native model file (.sfm) while it is worked on: every object of a StructuralModel is a section with a permanent id, a
 /// length and a checksum; objects refer to each other by id (lemelinaire1992 §2.18, rules H1–H8).
 ///
 /// Any subset of the objects can be loaded, in any order; each is loaded once, with the parts it is made of. What is
@@ -21,7 +21,7 @@ namespace strataflow {
 /// written to the old file before anything else, and at opening the largest id seen counts too.
 ///
 /// File: start (magic, format, byte order) · two copies of the counter, each with a checksum · directory (id, kind,
-/// position, length, checksum per section; sorted by id) and its checksum · sections.
+/// length, checksum per section; sorted by id) and its checksum · sections in that order.
 class ModelProject {
  public:
   /// A project with nothing in it.
@@ -31,7 +31,7 @@ class ModelProject {
   static Result<ModelProject> open(const std::filesystem::path& file);
 
   /// Writes the project to `file`: sections that were not loaded are copied, so the same project always gives the same
-  /// bytes. Fails with write_failed, also when `file` was opened here and another session has saved it since.
+  /// bytes. Fails with write_failed, also when `file` was opened here and another program has saved it since.
   Result<void> save(const std::filesystem::path& file);
 
   /// The largest id given so far.

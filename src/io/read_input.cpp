@@ -11,6 +11,7 @@
 #include "io/read_gmsh.h"
 #include "io/read_gocad.h"
 #include "io/read_medit.h"
+#include "io/read_model_file.h"
 #include "io/read_obj.h"
 #include "io/read_off.h"
 #include "io/read_ply.h"
@@ -18,6 +19,7 @@
 #include "io/read_ucd.h"
 #include "io/read_vtk_legacy.h"
 #include "io/read_vtk_xml.h"
+#include "io/soup_of_model.h"
 #include "io/tar_members.h"
 
 namespace strataflow {
@@ -76,10 +78,13 @@ const InputFormat* format_of(const std::string& ending) {
 Failure unknown_ending(const std::string& file_name, const std::string& ending) {
   std::string known;
   for (const InputFormat& format : formats) known += (known.empty() ? "." : " .") + std::string(format.ending);
+  if (ending == "sfm")
+    return Failure{FailureCode::unsupported, file_name + ": a model file inside a packed one is not read",
+                   "unpack it: its parts are loaded from the file itself"};
   return Failure{
       FailureCode::unsupported,
       file_name + ": " + (ending.empty() ? "a file without an ending" : "files ending in ." + ending) + " are not read",
-      "supported are " + known + ", each also gzipped (.gz), and .tar, .tar.gz, .tgz archives of them"};
+      "supported are " + known + ", each also gzipped (.gz), .tar, .tar.gz, .tgz archives of them, and .sfm"};
 }
 
 Result<InputData> read_archive(std::string_view bytes, const std::string& file_name) {
@@ -112,6 +117,17 @@ Result<InputData> read_archive(std::string_view bytes, const std::string& file_n
   return all;
 }
 
+/// A native model file, its local origin undone (exactly: it was chosen so that the shift has no rounding error).
+Result<InputData> read_native_model(const std::filesystem::path& path) {
+  const Result<StructuralModel> model = read_model_file(path);
+  if (!model) return model.failure();
+  InputData data;
+  data.surfaces = soup_of_model(*model);
+  for (Vec3& point : data.surfaces.points) point = point + model->local_origin;
+  data.surfaces.local_origin = {};
+  return data;
+}
+
 }  // namespace
 
 std::span<const InputFormat> input_formats() { return formats; }
@@ -126,6 +142,7 @@ Result<InputData> read_input_bytes(std::string_view bytes, const std::string& fi
 }
 
 Result<InputData> read_input(const std::filesystem::path& path) {
+  if (lower_case(path.extension().string()) == ".sfm") return read_native_model(path);
   const Result<std::string> text = read_input_text(path);
   if (!text) return text.failure();
   return read_input_bytes(*text, path.filename().string());

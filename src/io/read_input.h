@@ -19,7 +19,8 @@ struct InputFormat {
 /// Every format read_input knows, in the order shown to a user.
 std::span<const InputFormat> input_formats();
 
-/// Reads any supported file, gzipped or not, and .tar / .tar.gz / .tgz archives of such files (in archive order).
+/// Reads any supported file, gzipped or not, .tar / .tar.gz / .tgz archives of such files (in archive order), and
+/// native model files (.sfm).
 /// The ending decides; content that starts like a GOCAD object is read as GOCAD whatever the ending.
 /// Coordinates are the file's own (`local_origin` is zero), z up. Messages name the file without its folder.
 /// Fails with: unreadable_file, malformed_file, unsupported.

@@ -45,6 +45,10 @@ class VtkXmlReader {
       : parts_(parts), file_name_(file_name), built_(file_name) {}
 
   Result<InputData> read() {
+    // The parser would skip any text before the first element.
+    const std::size_t first = parts_.xml.find_first_not_of(" \t\r\n\xef\xbb\xbf");
+    if (first != std::string::npos && parts_.xml[first] != '<')
+      return Failure{FailureCode::malformed_file, file_name_ + ": not a VTK XML file: it does not start with '<'", remedy};
     pugi::xml_document document;
     const pugi::xml_parse_result parsed = document.load_buffer(parts_.xml.data(), parts_.xml.size());
     const pugi::xml_node root = document.child("VTKFile");

@@ -109,7 +109,7 @@ struct StructuralModel {
   std::vector<std::int32_t> point_line;    ///< per point: its line, −1 elsewhere (and at corners)
   std::vector<std::int32_t> point_corner;  ///< per point: its corner, −1 elsewhere
   std::vector<PointProperty> properties;
-  bool is_sealed = false;  ///< the outer shell is closed and every contact is conforming
+  bool is_sealed = false;  ///< the outer shell is closed; that contacts conform is for check_validity to say
 
   template <class A>
   void archive(A& a) {

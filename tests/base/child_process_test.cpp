@@ -46,6 +46,12 @@ TEST(ChildProcess, is_killed_at_its_time_limit) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
+TEST(ChildProcess, a_time_limit_past_the_clocks_range_is_no_limit) {
+  const auto outcome = run_child_process("/bin/sleep", {"0.3"}, {}, 1e300);
+  ASSERT_TRUE(outcome);
+  EXPECT_TRUE(outcome->is_success());
+}
+
 TEST(ChildProcess, is_killed_on_cancellation) {
   CancellationToken token;
   std::thread later([&] {

@@ -54,6 +54,9 @@ TEST_F(CommandLine, exits_2_on_wrong_usage) {
   const std::string good = job("a.toml", model);
   const std::vector<std::vector<std::string>> wrong = {{},
                                                        {"rum"},
+                                                       {"check"},
+                                                       {"quality", good, "--patch-test"},
+                                                       {"convert", "a.ts", "b.m"},
                                                        {"run"},
                                                        {"run", file("none.toml").string()},
                                                        {"run", scratch_.path().string()},
@@ -200,6 +203,61 @@ TEST_F(CommandLine, converts_and_measures) {
   const CommandOutcome none = strataflow({"convert", path, file("cube.vtu").string()});
   EXPECT_EQ(none.exit_code, 1);
   EXPECT_THAT(none.err, HasSubstr("holds nothing"));
+}
+
+TEST_F(CommandLine, names_an_unknown_command) {
+  const CommandOutcome outcome = strataflow({"rum", "a.toml"});
+  EXPECT_THAT(outcome.err, HasSubstr("unknown command 'rum'"));
+  EXPECT_THAT(outcome.err, HasSubstr("did you mean 'run'?"));
+}
+
+TEST_F(CommandLine, names_the_file_that_cannot_be_a_model) {
+  const std::string mesh = file("mesh.vtu").string();
+  ASSERT_EQ(strataflow({"run", job("a.toml",
+                                   "[[input]]\nmodel = \"A1\"\nresolution_m = 110.0\n[output]\n"
+                                   "products = [\"tets\"]\nformats = [\"gocad\"]\n")})
+                .exit_code,
+            0);
+  const CommandOutcome check = strataflow({"check", file("out/a/tets.vtu").string()});
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_THAT(check.err, HasSubstr("tets.vtu: the input holds no triangle"));
+  EXPECT_THAT(check.err, HasSubstr("strataflow quality"));
+  ASSERT_EQ(strataflow({"convert", file("out/a/tets.so").string(), mesh}).exit_code, 0);
+  const auto cells = [](const std::string& path) {
+    return nlohmann::json::parse(strataflow({"quality", path, "--json"}).out)["cells"]["tetrahedra"].get<int>();
+  };
+  EXPECT_EQ(cells(mesh), cells(file("out/a/tets.vtu").string()));
+}
+
+TEST_F(CommandLine, keeps_a_model_in_a_native_file) {
+  const std::string path = cube(), native = file("A1.sfm").string(), back = file("back.ml").string();
+  ASSERT_EQ(strataflow({"convert", path, native}).exit_code, 0);
+  const std::string expected = strataflow({"check", path, "--json"}).out;
+  EXPECT_EQ(strataflow({"check", native, "--json"}).out, expected);
+  ASSERT_EQ(strataflow({"convert", native, back}).exit_code, 0);
+  EXPECT_EQ(strataflow({"check", back, "--json"}).out, expected);
+  ASSERT_EQ(strataflow({"check", path, "--repair", native}).exit_code, 0);
+  EXPECT_EQ(strataflow({"check", native}).exit_code, 0);
+  EXPECT_EQ(
+      strataflow({"run", job("n.toml", "[[input]]\nfile = \"A1.sfm\"\n[output]\nproducts = [\"model\"]\n")}).exit_code,
+      0);
+  std::string damaged = read_text(native);
+  damaged[damaged.size() - 9] ^= 1;
+  write_text(file("damaged.sfm"), damaged);
+  const CommandOutcome outcome = strataflow({"check", file("damaged.sfm").string()});
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("checksum"));
+  write_text(file("damaged.sfm"), "no model");
+  EXPECT_EQ(strataflow({"check", file("damaged.sfm").string()}).exit_code, 1);
+}
+
+TEST_F(CommandLine, says_what_a_conversion_leaves_out) {
+  write_text(file("both.gocad"),
+             "GOCAD TSurf 1\nHEADER {\nname: x\n}\nTFACE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nVRTX 3 0 1 0\nTRGL 1 2 3\nEND\n"
+             "GOCAD PLine 1\nHEADER {\nname: w\n}\nILINE\nVRTX 1 0 0 0\nVRTX 2 1 0 0\nSEG 1 2\nEND\n");
+  const CommandOutcome outcome = strataflow({"convert", file("both.gocad").string(), file("a.obj").string()});
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("does not hold 1 lines"));
 }
 
 TEST_F(CommandLine, keeps_the_store_where_it_is_told) {

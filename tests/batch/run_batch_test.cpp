@@ -208,7 +208,7 @@ TEST_F(Batch, writes_the_formats_that_are_asked_for) {
                                                "formats = [\"gocad\", \"medit\", \"gmsh\", \"obj\", \"abaqus\"]\n"),
                         {}));
   for (const char* file : {"model.vtp", "model.ml", "model.mesh", "model.msh", "model.obj", "model.inp", "tets.vtu",
-                           "tets.mesh", "tets.msh", "tets.inp"})
+                           "tets.so", "tets.mesh", "tets.msh", "tets.inp"})
     EXPECT_GT(fs::file_size(out("a") / file), 0u) << file;
 }
 

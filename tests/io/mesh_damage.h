@@ -38,6 +38,8 @@ inline void expect_sound(const InputData& input) {
   for (const std::uint32_t patch : soup.triangle_patch) ASSERT_LT(patch, soup.patch_entity.size());
   for (const std::uint32_t entity : soup.patch_entity) ASSERT_LT(entity, soup.entities.size());
   for (const Vec3& point : soup.points) ASSERT_TRUE(is_finite(point));
+  for (const PointProperty& property : soup.properties)
+    ASSERT_EQ(property.values.size(), soup.points.size() * property.width);
   for (const Vec3& point : input.volume.points) ASSERT_TRUE(is_finite(point));
   for (const std::uint32_t vertex : input.volume.cell_vertices) ASSERT_LT(vertex, input.volume.points.size());
 }

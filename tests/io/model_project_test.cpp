@@ -61,8 +61,8 @@ TEST_F(ModelProjectTest, ids_are_unique_and_never_zero) {
   EXPECT_GT(all.front(), 0u);
 }
 
-// T17: session 1 saves A at address 948; session 2, without A, saves B at the same address; both load afterwards.
-TEST_F(ModelProjectTest, two_objects_that_had_the_same_address_in_two_sessions_are_two_objects) {
+// T17: one program saves A at address 948; the next, without A, saves B at the same address; both load afterwards.
+TEST_F(ModelProjectTest, two_objects_that_had_the_same_address_in_two_programs_are_two_objects) {
   ModelProject first;
   const PermanentId a = first.add(entity("A"));
   ASSERT_TRUE(first.save(file_));
@@ -190,7 +190,7 @@ TEST_F(ModelProjectTest, a_new_object_never_inherits_the_id_of_a_freed_one) {
   ASSERT_TRUE(project.save(file_));
   EXPECT_EQ(open().ids(RecordKind::layer), ids.layers);
 
-  // The object with the largest id is freed and the session ends: its id is still not given again.
+  // The object with the largest id is freed and the program ends: its id is still not given again.
   ModelProject later = open();
   later.remove(ids.layers[0]);
   ASSERT_TRUE(later.save(file_));
@@ -272,7 +272,7 @@ TEST_F(ModelProjectTest, a_damaged_counter_falls_back_on_the_largest_id_seen) {
   EXPECT_EQ(open().counter(), ids.layers[0]);
 }
 
-TEST_F(ModelProjectTest, a_session_that_saves_over_anothers_work_is_stopped) {
+TEST_F(ModelProjectTest, a_program_that_saves_over_anothers_work_is_stopped) {
   save_two_tetrahedra();
   ModelProject mine = open();
   ModelProject theirs = open();

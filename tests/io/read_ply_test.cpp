@@ -60,6 +60,14 @@ TEST(ReadPly, names_what_is_wrong) {
   expect_malformed(read_ply("", "a.ply"), "the first line is not 'ply'", "a.ply");
 }
 
+TEST(ReadPly, a_property_that_only_some_of_its_vertices_have_is_refused) {
+  const std::string two_lists =
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "property float q\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_index\nend_header\n0 0 0 5\n1 0 0\n0 1 0\n3 0 1 2\n";
+  expect_malformed(read_ply(two_lists, "a.ply"), "point property 'q' has 1 values for 3 points", "a.ply");
+}
+
 TEST(ReadPly, survives_damage) {
   for (const char* name : {"ply/ascii.ply", "ply/binary_little.ply", "ply/binary_big.ply"}) {
     expect_truncation_is_named(read_ply, text_of(own_sample(name)), name);

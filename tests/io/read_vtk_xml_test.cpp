@@ -74,6 +74,7 @@ TEST(ReadVtkXml, names_what_is_wrong) {
   expect_malformed(read_vtk_xml(replaced(two_pieces, "<VTKFile", "<VTXFile"), "a.vtp"), "not a VTK XML file", "a.vtp");
   expect_malformed(read_vtk_xml("", "a.vtp"), "the file is empty", "a.vtp");
   expect_malformed(read_vtk_xml("solid a", "a.vtp"), "not a VTK XML file", "a.vtp");
+  expect_malformed(read_vtk_xml("solid a\n" + two_pieces, "a.vtp"), "does not start with '<'", "a.vtp");
   const Result<InputData> image = read_vtk_xml("<VTKFile type=\"ImageData\"/>", "a.vti");
   ASSERT_FALSE(image);
   EXPECT_EQ(image.failure().code, FailureCode::unsupported);

@@ -62,6 +62,21 @@ int segment_in_plane(const Corners& t, const Vec3& p, const Vec3& q, int axis) {
   return meeting;
 }
 
+/// Two triangles of one plane share area: no edge of either has the whole other triangle beyond or on its line.
+bool overlap_in_plane(const Corners& a, const Corners& b, int axis) {
+  const auto has_parting_edge = [axis](const Corners& t, const Corners& other) {
+    const int turn = orientation_2d(*t[0], *t[1], *t[2], axis);
+    for (int k = 0; k < 3; ++k) {
+      int innermost = -1;
+      for (const Vec3* p : other)
+        innermost = std::max(innermost, turn * orientation_2d(*t[k], *t[(k + 1) % 3], *p, axis));
+      if (innermost <= 0) return true;
+    }
+    return false;
+  };
+  return !has_parting_edge(a, b) && !has_parting_edge(b, a);
+}
+
 PairMeeting as_meeting(int strength) {
   return strength == 0 ? PairMeeting::proper : strength == 1 ? PairMeeting::touching : PairMeeting::crossing;
 }
@@ -90,6 +105,8 @@ PairMeeting meeting_of_disjoint(const Corners& a, const Corners& b) {
   };
   edges_against(a, a_side, b);
   edges_against(b, b_side, a);
+  const bool is_one_plane = a_side[0] == 0 && a_side[1] == 0 && a_side[2] == 0;
+  if (strength == 1 && is_one_plane && overlap_in_plane(a, b, projection_axis(*a[0], *a[1], *a[2]))) strength = 2;
   return as_meeting(strength);
 }
 
@@ -118,13 +135,7 @@ PairMeeting meeting_at_vertex(const Corners& a, const Corners& b) {
     const int strength = std::max(segment_in_plane(b, *a[1], *a[2], a_axis), segment_in_plane(a, *b[1], *b[2], a_axis));
     if (strength == 0) return PairMeeting::proper;
     // Wedges that only share a ray touch; any more is an overlap with area.
-    const auto inside = [&](const Corners& wedge, int turn, const Vec3& p) {
-      return turn * orientation_2d(*wedge[0], *wedge[1], p, a_axis) > 0 &&
-             turn * orientation_2d(*wedge[0], *wedge[2], p, a_axis) < 0;
-    };
-    const bool overlaps = inside(a, turn_a, *b[1]) || inside(a, turn_a, *b[2]) || inside(b, turn_b, *a[1]) ||
-                          inside(b, turn_b, *a[2]) || strength == 2;
-    return overlaps ? PairMeeting::crossing : PairMeeting::touching;
+    return overlap_in_plane(a, b, a_axis) ? PairMeeting::crossing : PairMeeting::touching;
   }
   const int b_axis = projection_axis(*b[0], *b[1], *b[2]);
   return as_meeting(std::max(segment_through(b, *a[1], *a[2], a1, a2, b_axis),

@@ -96,9 +96,10 @@ WeldedTriangles weld_triangles(const TriangleSoup& soup, StructuralModel& model,
   for (const PointProperty& property : soup.properties) {
     PointProperty kept{property.name, property.unit, property.width, {}};
     kept.values.reserve(source.size() * property.width);
-    for (const std::uint32_t v : source)
-      kept.values.insert(kept.values.end(), property.values.begin() + static_cast<std::ptrdiff_t>(v * property.width),
-                         property.values.begin() + static_cast<std::ptrdiff_t>((v + 1) * property.width));
+    for (const std::size_t v : source) {
+      const auto first = property.values.begin() + static_cast<std::ptrdiff_t>(v * property.width);
+      kept.values.insert(kept.values.end(), first, first + property.width);
+    }
     model.properties.push_back(std::move(kept));
   }
   return welded;
@@ -162,6 +163,9 @@ bool is_shell_closed(const StructuralModel& model) {
 Result<BuiltModel> build_structural_model(const TriangleSoup& soup) {
   if (soup.triangles.empty())
     return Failure{FailureCode::invalid_input, "the input holds no triangle", "give triangulated surfaces as input"};
+  if (soup.triangles.size() >= no_index / 3 || soup.points.size() >= no_index)  // half-edges are counted in 32 bits
+    return Failure{FailureCode::unsupported, "the input holds more triangles or points than 32-bit indices can count",
+                   "split it, or coarsen its surfaces"};
   BuiltModel built;
   StructuralModel& model = built.model;
   model.local_origin = soup.local_origin;

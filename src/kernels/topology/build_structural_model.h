@@ -11,7 +11,8 @@ namespace strataflow {
 /// predicates. What a file says about its own topology (borders, stones, regions, orientation) only names regions and
 /// layers, and is compared with the result.
 /// Never stops at a flaw: triangles with a repeated vertex and repeated triangles of one patch are dropped and
-/// reported, the rest is judged by check_validity. Fails with invalid_input when there is no triangle at all.
+/// reported, the rest is judged by check_validity. Fails with invalid_input when there is no triangle at all, with
+/// unsupported when there are more than 32-bit indices can count.
 Result<BuiltModel> build_structural_model(const TriangleSoup& soup);
 
 }  // namespace strataflow

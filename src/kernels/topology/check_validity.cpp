@@ -121,7 +121,7 @@ void report_shell(const StructuralModel& model, ValidityReport& report) {
 
 /// A vertex whose triangles of one surface form several fans although no line passes (rule A2, F2).
 void report_pinches(const StructuralModel& model, ValidityReport& report) {
-  // Each fan of a surface around an inner vertex closes: the triangles there, minus edges there, count the fans.
+  // Triangles around each vertex, as one list with starts.
   std::vector<std::uint32_t> first(model.points.size() + 1, 0);
   for (const Triangle& t : model.triangles)
     for (const std::uint32_t v : t) ++first[v + 1];
@@ -157,7 +157,7 @@ void report_pinches(const StructuralModel& model, ValidityReport& report) {
     if (pinched[v])
       report.violations.push_back({"pinched_surface", Severity::warning,
                                    "surface " + name_of(model, model.triangle_surface[around[first[v]]]) +
-                                       " touches itself in one vertex",
+                                       " touches itself or another surface in one vertex",
                                    "split the vertex if the surface should not be pinched there", model.points[v], 1});
 }
 

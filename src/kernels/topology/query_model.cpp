@@ -81,7 +81,8 @@ std::vector<PathCrossing> ModelQueries::crossings_along(const std::vector<Vec3>&
       if (std::min({first, second, third}) < 0 && std::max({first, second, third}) > 0) return;
       const Vec3 n = cross(b - a, c - a);
       const double to_p = dot(n, p - a), to_q = dot(n, q - a);
-      const double share = to_p == to_q ? 0.0 : std::clamp(to_p / (to_p - to_q), 0.0, 1.0);
+      // An end that lies on the plane exactly is the place: where two segments join, both then give the same one.
+      const double share = p_side == 0 || to_p == to_q ? 0.0 : q_side == 0 ? 1.0 : std::clamp(to_p / (to_p - to_q), 0.0, 1.0);
       crossings.push_back({model_.triangle_surface[t], start_m + share * segment_m, p + share * (q - p)});
     });
     start_m += segment_m;

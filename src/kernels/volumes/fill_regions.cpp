@@ -39,15 +39,19 @@ struct Job {
   std::string name_of(std::uint32_t region) const {
     return "region '" + model.regions[region].name + "' (" + std::to_string(region) + ")";
   }
+  bool is_cancelled() const { return cancellation && cancellation->is_cancelled(); }
   InteriorGoal goal_of(std::uint32_t region) const {
     const auto own = options.region_max_volume_m3.find(model.regions[region].name);
     return {own != options.region_max_volume_m3.end() ? own->second : options.max_volume_m3, options.radius_edge_ratio};
   }
 };
 
+Failure cancelled() { return {FailureCode::cancelled, "meshing was stopped", "run it again"}; }
+
 /// Runs one attempt; its answer, or why there is none.
 std::variant<RegionAnswer, Rejection, Failure> answer_to(const Job& job, const RegionBoundary& boundary,
                                                          const RegionAttempt& attempt, const std::string& interior) {
+  if (job.is_cancelled()) return cancelled();
   const RegionFrame frame(boundary, attempt);
   const TetgenRequest request =
       request_for(boundary, attempt, frame, interior, static_cast<std::uint64_t>(job.options.memory_limit_mb));
@@ -69,7 +73,8 @@ std::variant<RegionMesh, Rejection> refined_region_mesh(const Job& job, const Re
   auto* mesh = std::get_if<RegionMesh>(&verdict);
   const InteriorGoal goal = job.goal_of(boundary.region);
   if (!mesh || goal.is_empty()) return verdict;
-  refine_interior(boundary, *mesh, goal);
+  refine_interior(boundary, *mesh, goal, job.cancellation);
+  if (job.is_cancelled()) return Rejection{"the run was cancelled"};
   std::vector<Vec3> all_points = boundary.coordinates;
   all_points.insert(all_points.end(), mesh->interior_points.begin(), mesh->interior_points.end());
   return verified_region_mesh(boundary, all_points, mesh->tets, volume_m3);
@@ -155,6 +160,7 @@ std::string joined(const std::vector<std::string>& reasons) {
 }
 
 Failure cannot_fill(const Job& job, std::uint32_t region, const std::vector<std::string>& reasons) {
+  if (job.is_cancelled()) return cancelled();  // nothing was tried to the end
   return {FailureCode::geometry_failed,
           job.name_of(region) + " could not be filled with tetrahedra: " + joined(reasons),
           "remesh its surfaces, or look for surfaces that nearly touch there (strataflow check)"};

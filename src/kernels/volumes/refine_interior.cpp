@@ -52,7 +52,7 @@ class GrowingMesh {
     for (std::uint32_t t = 0; t < tets_.size(); ++t) queue_.push_back({t, 0});
   }
 
-  void refine() {
+  void refine(const CancellationToken* cancellation) {
     double total_m3 = 0;
     for (const Tet& tet : tets_) total_m3 += volume(tet);
     // Enough for any sensible refinement; beyond it centroids alone, which certainly come to an end.
@@ -60,6 +60,7 @@ class GrowingMesh {
     const std::size_t start = points_.size();
     const double budget = 10.0 * static_cast<double>(start) + 20.0 * expected + 1000;
     for (std::size_t head = 0; head < queue_.size(); ++head) {
+      if (cancellation && head % 1024 == 0 && cancellation->is_cancelled()) return;
       const auto [tet, generation] = queue_[head];
       if (!is_alive_[tet] || generation_[tet] != generation) continue;
       const bool is_too_large = goal_.max_volume_m3 && volume(tets_[tet]) > *goal_.max_volume_m3;
@@ -305,10 +306,11 @@ class GrowingMesh {
 
 }  // namespace
 
-void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const InteriorGoal& goal) {
+void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const InteriorGoal& goal,
+                     const CancellationToken* cancellation) {
   if (goal.is_empty() || mesh.tets.empty()) return;
   GrowingMesh growing(boundary, mesh, goal);
-  growing.refine();
+  growing.refine(cancellation);
   growing.write_to(boundary.points.size(), mesh);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 
+#include "base/cancellation.h"
 #include "kernels/volumes/region_boundary.h"
 #include "kernels/volumes/region_mesh.h"
 
@@ -17,7 +18,8 @@ struct InteriorGoal {
 /// seen from it inside the region, else (volume only) its centroid. Each point takes the place of the tetrahedra around
 /// it whose circumsphere holds it, no further than facets and only as far as it sees them (exact orientations), so
 /// every step keeps a valid mesh with the same surfaces. Deterministic: bad tetrahedra are treated in the order in
-/// which they arise.
-void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const InteriorGoal& goal);
+/// which they arise. Stops early, with a valid mesh short of its goal, when `cancellation` asks for it.
+void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const InteriorGoal& goal,
+                     const CancellationToken* cancellation = nullptr);
 
 }  // namespace strataflow

@@ -1,6 +1,7 @@
 #include "kernels/volumes/tetrahedralize_model.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "base/child_process.h"
 #include "kernels/volumes/fill_regions.h"
@@ -31,6 +32,14 @@ std::optional<Failure> check(const StructuralModel& model, const TetrahedralizeO
     for (const Region& region : model.regions) known += (known.empty() ? "" : ", ") + region.name;
     return bad("region_max_volume_m3 names a region '" + name + "' that the model does not have",
                "known regions: " + known);
+  }
+  constexpr double most_cells = 1e8;  // more than any machine holds; faces are counted in 31 bits (tet_faces.h)
+  for (const Region& region : model.regions) {
+    const auto own = options.region_max_volume_m3.find(region.name);
+    const std::optional<double> largest = own != options.region_max_volume_m3.end() ? std::optional(own->second) : options.max_volume_m3;
+    if (largest && region.volume_m3 > most_cells * *largest)
+      return bad("the largest volume asked for makes more than 100 million tetrahedra of region '" + region.name + "'",
+                 "raise max_volume_m3 or region_max_volume_m3");
   }
   if (model.regions.empty())
     return Failure{FailureCode::invalid_input, "the model encloses no region",

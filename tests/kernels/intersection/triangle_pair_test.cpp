@@ -75,6 +75,13 @@ TEST(TrianglePair, a_vertex_inside_a_neighbours_edge_touches) {
   EXPECT_EQ(meeting_of(points, {0, 1, 2}, {3, 4, 5}), PairMeeting::touching);
 }
 
+TEST(TrianglePair, an_overlap_in_one_plane_crosses_also_when_only_borders_meet_borders) {
+  const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}};
+  EXPECT_EQ(meeting_of(points, {0, 1, 2}, {3, 4, 5}), PairMeeting::crossing);  // its medial triangle
+  EXPECT_EQ(meeting_of(points, {0, 1, 2}, {0, 3, 5}), PairMeeting::crossing);  // the same, smaller, at one corner
+  EXPECT_EQ(meeting_of(points, {3, 1, 4}, {0, 3, 5}), PairMeeting::proper);
+}
+
 TEST(TrianglePair, identical_triangles_count) {
   const std::vector<Vec3> points{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}};
   EXPECT_EQ(meeting_of(points, {0, 1, 2}, {2, 0, 1}), PairMeeting::crossing);

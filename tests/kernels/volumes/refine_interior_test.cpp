@@ -66,6 +66,16 @@ TEST(RefineInterior, reaches_every_volume_and_keeps_a_valid_mesh) {
     }
 }
 
+TEST(RefineInterior, stops_with_a_valid_mesh_when_it_is_cancelled) {
+  Octahedron octahedron(true);
+  CancellationToken cancellation;
+  cancellation.cancel();
+  refine_interior(octahedron.boundary, octahedron.mesh, {1e-9, {}}, &cancellation);
+  EXPECT_EQ(octahedron.mesh.tets.size(), 8u);
+  const auto verdict = verified_region_mesh(octahedron.boundary, octahedron.points(), octahedron.mesh.tets, 4.0 / 3);
+  EXPECT_TRUE(std::holds_alternative<RegionMesh>(verdict));
+}
+
 TEST(RefineInterior, comes_to_an_end_for_the_strictest_ratio) {
   Octahedron octahedron(true);
   refine_interior(octahedron.boundary, octahedron.mesh, {0.005, 1.1});

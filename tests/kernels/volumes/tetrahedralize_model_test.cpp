@@ -201,7 +201,7 @@ TEST(TetrahedralizeModel, names_the_known_regions_when_a_size_is_for_none_of_the
 TEST(TetrahedralizeModel, refuses_options_out_of_their_domain) {
   const StructuralModel model = model_of(support::box());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<TetrahedralizeOptions> bad(7);
+  std::vector<TetrahedralizeOptions> bad(8);
   bad[0].radius_edge_ratio = 1.0;
   bad[1].radius_edge_ratio = nan;
   bad[2].min_dihedral_deg = 40;
@@ -209,6 +209,7 @@ TEST(TetrahedralizeModel, refuses_options_out_of_their_domain) {
   bad[4].timeout_s = nan;
   bad[5].memory_limit_mb = 1;
   bad[6].split_surfaces = "sometimes";
+  bad[7].max_volume_m3 = 1e-12;  // more cells than any machine holds
   for (std::size_t i = 0; i < bad.size(); ++i) {
     const Result<VolumeMesh> mesh = tetrahedralized(model, bad[i]);
     ASSERT_FALSE(mesh) << i;

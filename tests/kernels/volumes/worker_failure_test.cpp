@@ -50,6 +50,13 @@ TEST_F(WorkerFailure, a_crash_is_a_failure_of_the_region_that_names_the_signal) 
   EXPECT_FALSE(failure.remedy.empty());
 }
 
+TEST_F(WorkerFailure, a_worker_killed_from_outside_is_no_reason_for_another_attempt) {
+  const Failure failure = failure_with("echo x >> \"$0.calls\"; kill -KILL $$");
+  EXPECT_EQ(failure.code, FailureCode::geometry_failed);
+  EXPECT_THAT(failure.what, HasSubstr("killed from outside"));
+  EXPECT_EQ(std::filesystem::file_size(folder_ / "fake_worker.calls"), 2u);  // one line: it was called once
+}
+
 TEST_F(WorkerFailure, a_hang_is_ended_by_the_time_out) {
   const Failure failure = failure_with("exec sleep 600", 0.2);
   EXPECT_EQ(failure.code, FailureCode::timed_out);

@@ -1,5 +1,6 @@
 #include "kernels/adapters/tetgen/run_tetgen.h"
 
+#include <csignal>
 #include <cstring>
 
 #include "base/archive.h"
@@ -59,6 +60,9 @@ Result<TetgenOutcome> run_tetgen(const std::filesystem::path& worker, const Tetg
   if (child->timed_out)
     return Failure{FailureCode::timed_out, "TetGen took longer than timeout_s",
                    "raise timeout_s, or simplify the surfaces"};
+  if (child->signal == SIGKILL)  // from outside, mostly the system when memory runs out: says nothing about the input
+    return Failure{FailureCode::geometry_failed, "the TetGen worker was killed from outside",
+                   "free memory, or use fewer threads"};
   TetgenOutcome outcome;
   if (child->signal != 0) {
     outcome.reason = std::string("TetGen died: ") + ::strsignal(child->signal);
