@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <csignal>
 #include <exception>
+#include <new>
 
 #include "batch/closest_word.h"
 #include "batch/program_version.h"
@@ -148,6 +149,9 @@ int main(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);  // a reader that goes away is no reason to die halfway
   try {
     return run_program(argc, argv);
+  } catch (const std::bad_alloc&) {
+    return strataflow::report_failure({strataflow::FailureCode::invalid_input, "not enough memory for this input",
+                                       "free memory, or coarsen the model"});
   } catch (const std::exception& error) {
     return strataflow::report_failure({strataflow::FailureCode::internal_error,
                                        std::string("internal error: ") + error.what(),
