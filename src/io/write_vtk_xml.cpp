@@ -155,6 +155,14 @@ std::string polys_piece(std::size_t point_count, std::size_t polygon_count) {
 }
 
 std::int32_t signed_index(std::uint32_t index) { return index == no_index ? -1 : static_cast<std::int32_t>(index); }
+void write_polys(VtkXmlFile& file, const std::vector<std::int64_t>& connectivity,
+                 const std::vector<std::int64_t>& offsets) {
+  file.open("Polys");
+  file.array("connectivity", connectivity);
+  file.array("offsets", offsets);
+  file.close("Polys");
+}
+
 }  // namespace
 
 std::string write_vtp(const LabelledTriangles& surfaces) {
@@ -176,10 +184,7 @@ std::string write_vtp(const LabelledTriangles& surfaces) {
   file.array("entity", entity);
   file.close("CellData");
   write_points(file, surfaces.points, surfaces.local_origin);
-  file.open("Polys");
-  file.array("connectivity", connectivity);
-  file.array("offsets", offsets);
-  file.close("Polys");
+  write_polys(file, connectivity, offsets);
   file.close("Piece");
   return std::move(file).finish();
 }
@@ -234,10 +239,7 @@ std::string write_facets_vtp(const VolumeMesh& mesh) {
   file.array("cell_1", cell_1);
   file.close("CellData");
   write_points(file, mesh.points, mesh.local_origin);
-  file.open("Polys");
-  file.array("connectivity", connectivity);
-  file.array("offsets", offsets);
-  file.close("Polys");
+  write_polys(file, connectivity, offsets);
   file.close("Piece");
   return std::move(file).finish();
 }

@@ -193,10 +193,7 @@ Result<BuiltModel> build_structural_model(const TriangleSoup& soup) {
                                 model.points[model.triangles[model.surfaces[s].first_triangle][0]], 1});
   edges = build_edge_table(model.points.size(), model.triangles);  // triangles have moved and turned
   std::vector<char> is_feature(edges.edge_count());
-  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) {
-    const auto around = edges.around(e);
-    is_feature[e] = around.size() != 2 || model.triangle_surface[around[0] / 3] != model.triangle_surface[around[1] / 3];
-  }
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) is_feature[e] = is_feature_edge(edges, e, model.triangle_surface);
   LineNetwork network = build_lines(edges, is_feature, model.triangle_surface, model.points.size());
   model.corners = std::move(network.corners);
   model.lines = std::move(network.lines);

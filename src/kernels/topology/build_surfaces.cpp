@@ -14,10 +14,7 @@ SurfacePartition build_surfaces(const EdgeTable& edges, const std::vector<Triang
                                 const std::vector<std::uint32_t>& triangle_patch) {
   SurfacePartition out;
   out.is_feature.resize(edges.edge_count());
-  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) {
-    const auto around = edges.around(e);
-    out.is_feature[e] = around.size() != 2 || triangle_patch[around[0] / 3] != triangle_patch[around[1] / 3];
-  }
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) out.is_feature[e] = is_feature_edge(edges, e, triangle_patch);
   out.surface_of.assign(triangles.size(), no_index);
   out.is_flipped.assign(triangles.size(), 0);
   std::vector<std::uint32_t> members;

@@ -118,11 +118,7 @@ std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeT
   for (std::uint32_t b = 0; b < soup.border_starts.size(); ++b) {
     const std::uint32_t v = id_of_point[soup.border_starts[b][0]], w = id_of_point[soup.border_starts[b][1]];
     const std::uint32_t e = v == no_index || w == no_index ? no_index : find_edge(edges, v, w);
-    bool on_line = e != no_index && is_own_edge[b];
-    if (on_line) {
-      const auto around = edges.around(e);
-      on_line = around.size() != 2 || model.triangle_surface[around[0] / 3] != model.triangle_surface[around[1] / 3];
-    }
+    const bool on_line = e != no_index && is_own_edge[b] && is_feature_edge(edges, e, model.triangle_surface);
     if (!on_line && lost_borders++ == 0) lost_border = b;
   }
   const char* rebuild = "`strataflow check --repair` and `run` rebuild borders from the geometry";

@@ -25,6 +25,13 @@ struct EdgeTable {
 /// Builds the table in linear time. Triangles have three different vertices below `point_count`.
 EdgeTable build_edge_table(std::size_t point_count, const std::vector<Triangle>& triangles);
 
+/// Whether an edge bounds surfaces: other than two triangles meet there, or their labels differ (pellerin2014 §2.1,
+/// builder step 2). `label` is per triangle: its patch, or its surface.
+inline bool is_feature_edge(const EdgeTable& table, std::uint32_t edge, const std::vector<std::uint32_t>& label) {
+  const auto around = table.around(edge);
+  return around.size() != 2 || label[around[0] / 3] != label[around[1] / 3];
+}
+
 /// The edge between two vertices, or no_index.
 std::uint32_t find_edge(const EdgeTable& table, std::uint32_t a, std::uint32_t b);
 
