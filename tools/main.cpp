@@ -4,10 +4,10 @@
 #include <exception>
 #include <new>
 
-#include "batch/closest_word.h"
+#include "batch/options/closest_word.h"
 #include "batch/program_version.h"
-#include "commands.h"
-#include "terminal.h"
+#include "commands/commands.h"
+#include "commands/terminal.h"
 
 namespace {
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -12,14 +13,17 @@
 
 namespace strataflow {
 
+static_assert(std::endian::native == std::endian::little, "archives are the memory of a little-endian machine");
+
 /// Types whose memory is their content: no padding, no pointers. Aggregates opt in with
-/// `static constexpr bool is_flat = true;` and must hold flat members without gaps.
+/// `static constexpr bool is_flat = true;` and must hold flat members without gaps. A bool is not flat: a damaged byte
+/// that is neither 0 nor 1 must not become one.
 template <class T>
-struct IsFlat : std::bool_constant<std::is_arithmetic_v<T> || std::is_enum_v<T>> {};
+struct IsFlat : std::bool_constant<(std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>> {};
 template <class T, std::size_t N>
 struct IsFlat<std::array<T, N>> : IsFlat<T> {};
 template <class T>
-  requires requires { T::is_flat; }
+requires requires { T::is_flat; }
 struct IsFlat<T> : std::bool_constant<T::is_flat && std::is_trivially_copyable_v<T>> {};
 template <class T>
 inline constexpr bool is_flat_v = IsFlat<T>::value;
@@ -50,6 +54,7 @@ class ArchiveWriter {
       const_cast<T&>(value).archive(*this);  // archive() is one function for both directions
     }
   }
+  void put(bool value) { put(static_cast<std::uint8_t>(value)); }
   void put(const std::string& text) {
     put(static_cast<std::uint64_t>(text.size()));
     put_memory(text.data(), text.size());
@@ -65,7 +70,7 @@ class ArchiveWriter {
   }
   template <class T>
   void put(const std::optional<T>& value) {
-    put(static_cast<std::uint8_t>(value.has_value()));
+    put(value.has_value());
     if (value) put(*value);
   }
 
@@ -113,6 +118,12 @@ class ArchiveReader {
       value.archive(*this);
     }
   }
+  void get(bool& value) {
+    std::uint8_t byte = 0;
+    get(byte);
+    if (byte > 1) ok_ = false;
+    value = ok_ && byte == 1;
+  }
   void get(std::string& text) {
     text.resize(get_count(1));
     get_memory(text.data(), text.size());
@@ -130,10 +141,10 @@ class ArchiveReader {
   }
   template <class T>
   void get(std::optional<T>& value) {
-    std::uint8_t present = 0;
-    get(present);
+    bool is_present = false;
+    get(is_present);
     value.reset();
-    if (ok_ && present) get(value.emplace());
+    if (is_present) get(value.emplace());
   }
 
   std::span<const std::byte> bytes_;

@@ -13,16 +13,19 @@ namespace strataflow {
 namespace fs = std::filesystem;
 
 Result<std::string> read_file(const fs::path& file) {
-  std::error_code error;
-  if (fs::is_directory(file, error))
-    return Failure{FailureCode::unreadable_file, file.string() + ": is a folder, not a file", "name a file inside it"};
-  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0)
-    return Failure{FailureCode::unreadable_file, file.string() + ": " + std::strerror(errno),
-                   "check the path and the file's permissions"};
+  const auto unreadable = [&](const std::string& why, const char* remedy) {
+    return Failure{FailureCode::unreadable_file, file.string() + ": " + why, remedy};
+  };
+  const int descriptor = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // a pipe would wait for its writer
+  if (descriptor < 0) return unreadable(std::strerror(errno), "check the path and the file's permissions");
   struct stat status {};
+  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) {
+    ::close(descriptor);
+    if (S_ISDIR(status.st_mode)) return unreadable("is a folder, not a file", "name a file inside it");
+    return unreadable("is a pipe or a device, not a regular file", "save its content to a file and name that one");
+  }
   std::string content;
-  if (::fstat(descriptor, &status) == 0 && status.st_size > 0) content.reserve(static_cast<std::size_t>(status.st_size) + 1);
+  if (status.st_size > 0) content.reserve(static_cast<std::size_t>(status.st_size) + 1);
   static constexpr std::size_t chunk = std::size_t{1} << 20;
   for (std::size_t used = 0;;) {
     const std::size_t wanted = content.capacity() > used ? content.capacity() - used : chunk;
@@ -35,7 +38,7 @@ Result<std::string> read_file(const fs::path& file) {
     if (got < 0) {
       const std::string reason = std::strerror(errno);
       ::close(descriptor);
-      return Failure{FailureCode::unreadable_file, file.string() + ": " + reason, "check the disk"};
+      return unreadable(reason, "check the disk");
     }
     used += static_cast<std::size_t>(got);
     content.resize(used);
@@ -49,8 +52,8 @@ fs::path scratch_name_beside(const fs::path& path) {
   static std::atomic<unsigned> serial{0};
   fs::path target = path;
   if (!target.has_filename()) target = target.parent_path();
-  return target.parent_path() /
-         ("." + target.filename().string() + "." + std::to_string(::getpid()) + "." + std::to_string(serial++) + ".part");
+  return target.parent_path() / ("." + target.filename().string() + "." + std::to_string(::getpid()) + "." +
+                                 std::to_string(serial++) + ".part");
 }
 
 Result<void> write_file_atomically(const fs::path& file, std::string_view content) {

@@ -9,7 +9,8 @@
 
 namespace strataflow {
 
-/// Reads a whole file. Fails with unreadable_file for a missing file, a directory, or no permission.
+/// Reads a whole regular file. Fails with unreadable_file for a missing file, no permission, and whatever has no end to
+/// trust: a folder, a pipe, a device.
 Result<std::string> read_file(const std::filesystem::path& file);
 
 /// Writes `content` to a neighbour of `file` and renames it: readers see the old file or the whole new one.

@@ -13,6 +13,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <thread>
 
 namespace strataflow {
 
@@ -67,16 +68,17 @@ Result<ChildOutcome> run_child_process(const std::filesystem::path& program, con
   constexpr double longest_s = 1e9;  // thirty years; a longer limit would not fit the clock's nanoseconds
   const std::chrono::duration<double> limit(std::min(timeout_s, longest_s));
   const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(limit);
+  const auto must_end = [&] {
+    if (cancellation && cancellation->is_cancelled()) outcome.cancelled = true;
+    if (Clock::now() >= deadline) outcome.timed_out = true;
+    if (outcome.cancelled || outcome.timed_out) ::kill(child, SIGKILL);
+    return outcome.cancelled || outcome.timed_out;
+  };
   std::size_t sent = 0;
   if (input.empty()) to_child.close(1);
   std::array<std::byte, 65536> buffer;
   for (bool reading = true; reading;) {
-    if (cancellation && cancellation->is_cancelled()) outcome.cancelled = true;
-    if (Clock::now() >= deadline) outcome.timed_out = true;
-    if (outcome.cancelled || outcome.timed_out) {
-      ::kill(child, SIGKILL);
-      break;
-    }
+    if (must_end()) break;
     std::array<pollfd, 2> waiting{{{from_child.ends[0], POLLIN, 0}, {to_child.ends[1], POLLOUT, 0}}};
     if (::poll(waiting.data(), to_child.ends[1] >= 0 ? 2 : 1, 100) < 0 && errno != EINTR) {
       ::kill(child, SIGKILL);  // nobody would read its answer
@@ -94,8 +96,16 @@ Result<ChildOutcome> run_child_process(const std::filesystem::path& program, con
       if (n == 0 || (n < 0 && errno != EAGAIN && errno != EINTR)) reading = false;
     }
   }
+  // A closed output is not yet the end of a child. The pauses grow, so that a quick end is seen quickly.
   int status = 0;
-  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  bool is_killed = outcome.cancelled || outcome.timed_out;
+  std::chrono::microseconds pause(50);
+  while (true) {
+    const pid_t ended = ::waitpid(child, &status, is_killed ? 0 : WNOHANG);
+    if (ended > 0 || (ended < 0 && errno != EINTR)) break;
+    if (is_killed || (is_killed = must_end())) continue;
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::microseconds(20000));
   }
   if (WIFEXITED(status)) outcome.exit_code = WEXITSTATUS(status);
   if (WIFSIGNALED(status)) outcome.signal = WTERMSIG(status);

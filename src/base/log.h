@@ -1,19 +1,28 @@
 #pragma once
-#include <filesystem>
+#include <memory>
+#include <string>
 #include <string_view>
 
 namespace strataflow {
 
-enum class LogLevel { debug, info, warning, error };
+enum class LogLevel { info, warning, error };
 
-/// One line to the log (stderr and, once opened, the run's log file). Safe from any thread; never stdout.
-void log_line(LogLevel level, std::string_view message);
+/// The log of one run, kept in memory until the run folder is written: library code never prints, what it has to say
+/// travels as data. Not thread-safe.
+class RunLog {
+ public:
+  RunLog();
+  ~RunLog();
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
 
-/// Lines below `level` are not shown on stderr. The file gets everything.
-void set_stderr_log_level(LogLevel level);
+  /// Adds one line, which starts with its level unless that is info.
+  void line(LogLevel level, std::string_view message);
+  std::string text() const;
 
-/// From now on lines also go to `file`, replacing what it held.
-void open_log_file(const std::filesystem::path& file);
-void close_log_file();
+ private:
+  struct Sink;
+  std::unique_ptr<Sink> sink_;
+};
 
 }  // namespace strataflow

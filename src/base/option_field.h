@@ -26,12 +26,13 @@ namespace strataflow {
 /// std::int64_t, double, std::string, std::optional of these, std::vector of int64/double/string, and
 /// std::map<std::string, double> (a TOML table).
 struct OptionField {
-  std::string_view name;         ///< snake_case, with its unit suffix
-  std::string_view description;  ///< one sentence, without the final full stop
+  std::string_view name;                                      ///< snake_case, with its unit suffix
+  std::string_view description;                               ///< one sentence, without the final full stop
   double minimum = -std::numeric_limits<double>::infinity();  ///< numbers: smallest allowed value
   double maximum = std::numeric_limits<double>::infinity();   ///< numbers: largest allowed value
   bool exclusive_minimum = false;                             ///< `minimum` itself is not allowed
   std::vector<std::string_view> words = {};                   ///< texts: the allowed words; empty means any
+  bool is_internal = false;  ///< follows from other options: part of the digest, but no key and not documented
 };
 
 /// One canonical line "name = value" per field, as TOML writes it; an absent optional is left out.

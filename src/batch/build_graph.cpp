@@ -6,8 +6,14 @@
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
 #include "stages/combine_stage.h"
+#include "stages/cut_constrained_stage.h"
+#include "stages/cut_stage.h"
 #include "stages/generate_stage.h"
+#include "stages/judge_surfaces_stage.h"
 #include "stages/read_stage.h"
+#include "stages/remove_scars_stage.h"
+#include "stages/seal_stage.h"
+#include "stages/simplify_borders_stage.h"
 #include "stages/tetrahedralize_stage.h"
 
 namespace strataflow {
@@ -44,6 +50,18 @@ Port<InputData> wire_input(JobWirer& wirer, const Job& job, const JobInput& inpu
   return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role}, path});
 }
 
+/// From surfaces as they were read to surfaces that conform.
+Port<InputData> wire_surfaces(JobWirer& wirer, const Job& job, Port<InputData> surfaces, WiredJob& wired) {
+  if (job.cut.scars.remove_scars) surfaces = wirer.add("remove_scars", RemoveScars{job.cut.scars}, surfaces);
+  if (job.cut.judge.mode == "never") return surfaces;
+  const Port<SealingNeed> need = wirer.add("judge_surfaces", JudgeSurfaces{job.cut.judge}, surfaces);
+  const Port<InputData> joined = wirer.add("cut_constrained", CutConstrained{job.seal.contacts()}, surfaces, need);
+  const Port<CutResult> cut = wirer.add("cut", Cut{job.cut.cut}, joined, need);
+  const Port<CutResult> sealed = wirer.add("seal", Seal{job.seal.seal}, cut, need);
+  wired.sealed = sealed;
+  return wirer.add("simplify_borders", SimplifyBorders{job.simplify}, sealed);
+}
+
 WiredJob wire_job(StageGraph& graph, const Job& job) {
   WiredJob wired;
   JobWirer wirer(graph, wired);
@@ -52,8 +70,8 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   std::vector<Port<InputData>> inputs;
   for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
   const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
-  const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, input);
-  const bool must_be_sealed = job.cut.mode != "never" || job.makes("tets");
+  const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
+  const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets");
   wired.model = model;
   const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
   wired.validity = validity;
@@ -75,6 +93,7 @@ std::vector<NodeId> WiredJob::wanted() const {
   const auto take = [&](const auto& port) {
     if (port) ids.push_back(port->node());
   };
+  take(sealed);
   take(model);
   take(validity);
   take(model_pictures);

@@ -4,10 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "batch/job.h"
+#include "batch/job_file/job.h"
 #include "graph/stage_graph.h"
 #include "kernels/quality/analyze_volume_mesh.h"
 #include "model/built_model.h"
+#include "model/cut_result.h"
 #include "model/volume_mesh.h"
 #include "stages/draw_stage.h"
 
@@ -18,6 +19,7 @@ struct WiredJob {
   /// The job's nodes by the names they have in its report, in the order they were wired. A node shared with another
   /// job may be called differently in the graph.
   std::vector<std::pair<std::string, NodeId>> nodes;
+  std::optional<Port<CutResult>> sealed;  ///< absent where cut.mode is never
   std::optional<Port<BuiltModel>> model;
   std::optional<Port<ValidityReport>> validity;
   std::optional<Port<Pictures>> model_pictures;

@@ -1,9 +1,11 @@
 #include "batch/check_model.h"
 
-#include "batch/html_page.h"
+#include <cmath>
+
+#include "batch/report/html_page.h"
 #include "graph/parallel/parallel_map.h"
-#include "io/combine_inputs.h"
-#include "io/local_origin.h"
+#include "io/input/combine_inputs.h"
+#include "io/input/local_origin.h"
 #include "io/read_input.h"
 #include "kernels/topology/build_structural_model.h"
 #include "kernels/topology/check_validity.h"
@@ -17,8 +19,8 @@ Result<InputData> read_inputs(const std::vector<std::filesystem::path>& files) {
     if (!*part) return part->failure();
     data.push_back(std::move(**part));
   }
-  InputData whole = data.size() == 1 ? std::move(data.front()) : combine_inputs(std::move(data));
-  shift_to_local_origin(whole);
+  Result<InputData> whole = combine_inputs(std::move(data));
+  if (whole) shift_to_local_origin(*whole);
   return whole;
 }
 
@@ -49,13 +51,14 @@ std::string model_text(const CheckedModel& checked) {
                      count(model.triangles.size(), "triangle") + ", " + std::to_string(model.points.size()) +
                      " vertices, " + (is_sealed(model, checked.validity) ? "sealed" : "not sealed") + "\n";
   std::vector<std::size_t> surfaces(model.entities.size(), 0);
-  for (const Surface& surface : model.surfaces) ++surfaces[surface.entity];
+  for (const Surface& surface : model.surfaces)
+    for (const std::uint32_t entity : surface.all_entities) ++surfaces[entity];
   for (std::size_t i = 0; i < model.entities.size(); ++i)
     text += "  " + std::string(to_string(model.entities[i].role)) + " " + model.entities[i].name + ": " +
             count(surfaces[i], "surface") + "\n";
   for (std::size_t i = 0; i < model.regions.size(); ++i)
     text += "  region " + std::to_string(i) + " " + model.regions[i].name + ": " +
-            readable_number(model.regions[i].volume_m3) + " m3\n";
+            readable_number(model.regions[i].volume_m3) + (std::isnan(model.regions[i].volume_m3) ? " volume\n" : " m3\n");
   for (const Violation& violation : checked.validity.violations)
     text += std::string(violation.severity == Violation::Severity::error ? "error" : "warning") + ": " +
             violation.kind + ": " + violation.what + "\n  what to do: " + violation.remedy + "\n";

@@ -4,15 +4,15 @@
 #include <cctype>
 
 #include "base/atomic_file.h"
-#include "io/labelled_triangles.h"
-#include "io/soup_of_model.h"
-#include "io/write_abaqus.h"
-#include "io/write_gmsh.h"
-#include "io/write_gocad.h"
-#include "io/write_medit.h"
-#include "io/write_model_file.h"
-#include "io/write_obj.h"
-#include "io/write_vtk_xml.h"
+#include "io/gocad/write_gocad.h"
+#include "io/input/labelled_triangles.h"
+#include "io/mesh/write_abaqus.h"
+#include "io/mesh/write_gmsh.h"
+#include "io/mesh/write_medit.h"
+#include "io/model_file/soup_of_model.h"
+#include "io/model_file/write_model_file.h"
+#include "io/surface/write_obj.h"
+#include "io/vtk/write_vtk_xml.h"
 #include "kernels/topology/build_structural_model.h"
 
 namespace strataflow {

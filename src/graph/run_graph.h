@@ -58,11 +58,12 @@ struct NodeOutcome {
   std::optional<Failure> failure;  ///< when failed; when skipped: upstream_failed (names the node) or cancelled
 };
 
-/// Wall-clock facts, kept apart because they are never the same twice.
+/// Facts of this one run, kept apart because they are never the same twice.
 struct NodeTiming {
   double start_s = 0;  ///< since the run began
   double seconds = 0;
   bool is_cached = false;
+  std::string not_stored = {};  ///< why the output did not go to the store, if it did not: costs time later, no more
 };
 
 /// What became of a run. `nodes` and `timings` are in node order.

@@ -6,21 +6,21 @@
 #include <utility>
 #include <vector>
 
-#include "io/combine_inputs.h"
-#include "io/input_file.h"
-#include "io/read_gmsh.h"
-#include "io/read_gocad.h"
-#include "io/read_medit.h"
-#include "io/read_model_file.h"
-#include "io/read_obj.h"
-#include "io/read_off.h"
-#include "io/read_ply.h"
-#include "io/read_stl.h"
-#include "io/read_ucd.h"
-#include "io/read_vtk_legacy.h"
-#include "io/read_vtk_xml.h"
-#include "io/soup_of_model.h"
-#include "io/tar_members.h"
+#include "io/bytes/input_file.h"
+#include "io/bytes/tar_members.h"
+#include "io/gocad/read_gocad.h"
+#include "io/input/combine_inputs.h"
+#include "io/mesh/read_gmsh.h"
+#include "io/mesh/read_medit.h"
+#include "io/mesh/read_ucd.h"
+#include "io/model_file/read_model_file.h"
+#include "io/model_file/soup_of_model.h"
+#include "io/surface/read_obj.h"
+#include "io/surface/read_off.h"
+#include "io/surface/read_ply.h"
+#include "io/surface/read_stl.h"
+#include "io/vtk/read_vtk_legacy.h"
+#include "io/vtk/read_vtk_xml.h"
 
 namespace strataflow {
 
@@ -112,8 +112,8 @@ Result<InputData> read_archive(std::string_view bytes, const std::string& file_n
   if (parts.empty())
     return Failure{FailureCode::malformed_file, file_name + ": the archive holds no file that can be read",
                    "put model or surface files into it"};
-  InputData all = combine_inputs(std::move(parts));
-  all.warnings.insert(all.warnings.end(), skipped.begin(), skipped.end());
+  Result<InputData> all = combine_inputs(std::move(parts));
+  if (all) all->warnings.insert(all->warnings.end(), skipped.begin(), skipped.end());
   return all;
 }
 

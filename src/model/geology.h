@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace strataflow {
 
@@ -22,6 +23,8 @@ enum class Role : std::uint8_t {
 };
 
 std::string_view to_string(Role role);
+/// The words a job file may say: every role but unknown.
+std::vector<std::string_view> role_words();
 /// The role of that name, or nothing.
 std::optional<Role> role_from(std::string_view word);
 
@@ -34,5 +37,10 @@ struct Entity {
     a(name, role);
   }
 };
+
+/// Which of several coinciding entities is the youngest: the one whose role cuts the others off (boundary, then fault,
+/// then intrusion, then horizon and unconformity, then any other), and of these the last in input order. Inputs say no
+/// ages; where they list horizons, the deposited-last one comes last. `entities` holds at least one index.
+std::uint32_t youngest_of(const std::vector<Entity>& all, const std::vector<std::uint32_t>& entities);
 
 }  // namespace strataflow

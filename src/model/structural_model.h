@@ -28,7 +28,7 @@ struct Corner {
 
 /// A maximal polyline along which the same surfaces meet: a contact, or the free border of one surface.
 struct Line {
-  std::vector<std::uint32_t> vertices;                ///< in order; a closed line does not repeat its first
+  std::vector<std::uint32_t> vertices;                       ///< in order; a closed line does not repeat its first
   std::array<std::uint32_t, 2> corners{universe, universe};  ///< indices into corners; `universe` when closed
   /// Surfaces around the line, one entry per border of a surface (a surface may come twice), ascending.
   std::vector<std::uint32_t> surfaces;
@@ -40,15 +40,16 @@ struct Line {
   }
 };
 
-/// A connected piece of one entity between lines, consistently oriented: triangles [first_triangle, end_triangle).
+/// A connected piece of one entity, or of the same several that coincide, between lines, consistently oriented:
+/// triangles [first_triangle, end_triangle).
 struct Surface {
   std::uint32_t entity = 0;
-  std::vector<std::uint32_t> all_entities;  ///< more than one where entities coincide; `entity` is the youngest
+  std::vector<std::uint32_t> all_entities;  ///< ascending; several where they coincide: `entity` is their youngest_of
   std::uint32_t first_triangle = 0;
   std::uint32_t end_triangle = 0;
-  std::vector<std::uint32_t> lines;         ///< ascending
-  std::uint32_t region_plus = universe;     ///< region on the positive side
-  std::uint32_t region_minus = universe;    ///< region on the negative side
+  std::vector<std::uint32_t> lines;       ///< ascending
+  std::uint32_t region_plus = universe;   ///< region on the positive side
+  std::uint32_t region_minus = universe;  ///< region on the negative side
   bool is_dangling() const { return region_plus == region_minus; }
   template <class A>
   void archive(A& a) {
@@ -58,9 +59,9 @@ struct Surface {
 
 /// A connected set of surface sides that look at one region (euler1999 §2.2.3).
 struct Frontier {
-  std::vector<SurfaceSide> sides;     ///< ascending
+  std::vector<SurfaceSide> sides;  ///< ascending
   std::uint32_t region = universe;
-  std::int32_t volume_sign = 0;       ///< exact: +1 external, −1 or 0 internal
+  std::int32_t volume_sign = 0;  ///< exact: +1 external, −1 or 0 internal
   double signed_volume_m3 = 0;
   template <class A>
   void archive(A& a) {
@@ -73,6 +74,8 @@ struct Region {
   std::string name;
   std::uint32_t external_frontier = 0;
   std::vector<std::uint32_t> internal_frontiers;
+  /// NaN where the surfaces do not tell: the order around a line of its own, or of a body that may lie in it, is
+  /// unknown.
   double volume_m3 = 0;
   template <class A>
   void archive(A& a) {

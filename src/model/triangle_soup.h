@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -60,6 +61,8 @@ struct TriangleSoup {
   std::vector<std::uint32_t> triangle_patch;  ///< per triangle: index into patch_entity
   /// A patch is what a file keeps together: one TFACE, one OBJ group, one file. Per patch: index into entities.
   std::vector<std::uint32_t> patch_entity;
+  /// Per patch: further entities that coincide with it, ascending. May be empty: none anywhere.
+  std::vector<std::vector<std::uint32_t>> patch_other_entities;
   std::vector<Entity> entities;
 
   // Records of a file about its own topology. They are compared with the geometry, never believed.
@@ -70,10 +73,18 @@ struct TriangleSoup {
 
   std::vector<PointProperty> properties;
 
+  /// All entities of a patch, ascending.
+  std::vector<std::uint32_t> entities_of(std::uint32_t patch) const {
+    std::vector<std::uint32_t> all;
+    if (!patch_other_entities.empty()) all = patch_other_entities[patch];
+    all.insert(std::upper_bound(all.begin(), all.end(), patch_entity[patch]), patch_entity[patch]);
+    return all;
+  }
+
   template <class A>
   void archive(A& a) {
-    a(local_origin, points, triangles, triangle_patch, patch_entity, entities, border_stones, border_starts, regions,
-      layers, properties);
+    a(local_origin, points, triangles, triangle_patch, patch_entity, patch_other_entities, entities, border_stones,
+      border_starts, regions, layers, properties);
   }
 };
 

@@ -4,9 +4,15 @@
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
 #include "stages/combine_stage.h"
+#include "stages/cut_constrained_stage.h"
+#include "stages/cut_stage.h"
 #include "stages/draw_stage.h"
 #include "stages/generate_stage.h"
+#include "stages/judge_surfaces_stage.h"
 #include "stages/read_stage.h"
+#include "stages/remove_scars_stage.h"
+#include "stages/seal_stage.h"
+#include "stages/simplify_borders_stage.h"
 #include "stages/tetrahedralize_stage.h"
 
 namespace strataflow {
@@ -14,6 +20,14 @@ namespace strataflow {
 template <>
 struct DataName<InputData> {
   static constexpr std::string_view text = "input data";
+};
+template <>
+struct DataName<SealingNeed> {
+  static constexpr std::string_view text = "sealing need";
+};
+template <>
+struct DataName<CutResult> {
+  static constexpr std::string_view text = "cut surfaces";
 };
 template <>
 struct DataName<BuiltModel> {
@@ -41,8 +55,14 @@ std::vector<StageDescription> all_stages() {
       describe_stage<Read>("Reads one input file", "[[input]]"),
       describe_stage<Generate>("Makes a reference model instead of reading one", "[[input]]"),
       describe_stage<Combine>("Puts the inputs together and moves them near the origin", ""),
+      describe_stage<RemoveScars>("Sews the slits of an earlier cut and erases its nodes", "[cut]"),
+      describe_stage<JudgeSurfaces>("Decides whether the surfaces must be cut and sealed", "[cut]"),
+      describe_stage<CutConstrained>("Leads borders that stop short of a surface onto it", "[seal]"),
+      describe_stage<Cut>("Cuts surfaces along everything they share, exactly", "[cut]"),
+      describe_stage<Seal>("Trims what juts out, closes what still stops short, merges micro-regions", "[seal]"),
+      describe_stage<SimplifyBorders>("Gives contacts the coarsest common sampling", "[simplify]"),
       describe_stage<BuildModel>("Finds corners, lines, surfaces and regions", ""),
-      describe_stage<CheckValidity>("Judges the model by the validity rules", "[cut]"),
+      describe_stage<CheckValidity>("Judges the model by the validity rules", ""),
       describe_stage<DrawModel>("Draws the model by entity, by region, and with its regions moved apart", ""),
       describe_stage<Tetrahedralize>("Fills every region with tetrahedra that conform to all surfaces",
                                      "[tetrahedralize]"),

@@ -1,7 +1,6 @@
 #include "stages/build_model_stage.h"
 
 #include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
 
 namespace strataflow {
 
@@ -9,7 +8,7 @@ Result<BuiltModel> BuildModel::operator()(const InputData& input, StageContext& 
   Result<BuiltModel> built = build_structural_model(input.surfaces);
   if (built)
     for (const Violation& violation : built->violations)
-      if (is_mended_by_building(violation)) context.warn(violation.kind, violation.what + "; mended by building anew");
+      if (violation.is_mended) context.warn(violation.kind, violation.what + "; mended by building anew");
   return built;
 }
 

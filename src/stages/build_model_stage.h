@@ -11,7 +11,7 @@ namespace strataflow {
 /// wrong with the input is in the output; what building mended (dropped triangles, rebuilt borders) is also a warning.
 struct BuildModel {
   static constexpr std::string_view name = "build_model";
-  static constexpr int version = 1;
+  static constexpr int version = 3;
   NoOptions options;
 
   Result<BuiltModel> operator()(const InputData& input, StageContext& context) const;

@@ -9,14 +9,14 @@ std::optional<Failure> why_not_sealed(const StructuralModel& model, const Validi
   std::string reasons;
   std::size_t count = 0;
   for (const Violation& violation : report.violations)
-    if (violation.severity == Violation::Severity::error && !is_mended_by_building(violation) &&
-        ++count <= most_reasons)
+    if (violation.severity == Violation::Severity::error && !violation.is_mended && ++count <= most_reasons)
       reasons += "\n  " + violation.kind + ": " + violation.what;
   if (count > most_reasons) reasons += "\n  and " + std::to_string(count - most_reasons) + " more";
   if (reasons.empty() && is_sealed(model, report)) return std::nullopt;
   return Failure{
       FailureCode::invalid_input, "the model is not sealed" + (reasons.empty() ? "" : ":" + reasons),
-      "cutting and sealing are not in this version: repair the input; `strataflow check` lists every violation"};
+      "`strataflow check` lists every violation; with cut.mode = \"auto\" or \"always\" surfaces are cut and sealed, "
+      "gaps up to seal.distance_m closed"};
 }
 
 Result<ValidityReport> CheckValidity::operator()(const BuiltModel& built, StageContext& context) const {
@@ -24,7 +24,7 @@ Result<ValidityReport> CheckValidity::operator()(const BuiltModel& built, StageC
   if (options.must_be_sealed)
     if (std::optional<Failure> failure = why_not_sealed(built.model, report)) return *failure;
   for (const Violation& violation : report.violations)
-    if (!is_mended_by_building(violation)) context.warn(violation.kind, violation.what);
+    if (!violation.is_mended) context.warn(violation.kind, violation.what);
   return report;
 }
 

@@ -12,14 +12,15 @@ struct CheckValidityOptions {
   void visit_fields(Visitor& visit) {
     visit(must_be_sealed, OptionField{.name = "must_be_sealed",
                                       .description = "Fail on a model that leaks or whose surfaces cross; true unless "
-                                                     "cut.mode is never and no product needs volumes"});
+                                                     "cut.mode is never and no product needs volumes",
+                                      .is_internal = true});
   }
 };
 
 /// Judges a model by the rules for a static one (euler1999 §3, pellerin2014 §3).
 struct CheckValidity {
   static constexpr std::string_view name = "check_validity";
-  static constexpr int version = 1;
+  static constexpr int version = 3;
   CheckValidityOptions options;
 
   Result<ValidityReport> operator()(const BuiltModel& built, StageContext& context) const;

@@ -1,7 +1,7 @@
 #include "stages/combine_stage.h"
 
-#include "io/combine_inputs.h"
-#include "io/local_origin.h"
+#include "io/input/combine_inputs.h"
+#include "io/input/local_origin.h"
 
 namespace strataflow {
 
@@ -9,8 +9,8 @@ Result<InputData> Combine::operator()(const std::vector<const InputData*>& parts
   std::vector<InputData> copies;
   copies.reserve(parts.size());
   for (const InputData* part : parts) copies.push_back(*part);
-  InputData whole = combine_inputs(std::move(copies));
-  shift_to_local_origin(whole);
+  Result<InputData> whole = combine_inputs(std::move(copies));
+  if (whole) shift_to_local_origin(*whole);
   return whole;
 }
 

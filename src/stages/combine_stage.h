@@ -11,7 +11,7 @@ namespace strataflow {
 /// Puts the inputs of a job together, in their order, and moves them near the origin (exactly).
 struct Combine {
   static constexpr std::string_view name = "combine";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   NoOptions options;
 
   Result<InputData> operator()(const std::vector<const InputData*>& parts, StageContext&) const;

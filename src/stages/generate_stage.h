@@ -28,7 +28,7 @@ struct GenerateOptions {
 /// Makes a reference model (pellerin2014 §4.2) instead of reading one.
 struct Generate {
   static constexpr std::string_view name = "generate";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   GenerateOptions options;
 
   Result<InputData> operator()(StageContext&) const;

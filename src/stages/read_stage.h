@@ -7,6 +7,7 @@
 #include "base/option_field.h"
 #include "base/result.h"
 #include "graph/stage_context.h"
+#include "model/geology.h"
 #include "model/input_data.h"
 
 namespace strataflow {
@@ -20,8 +21,7 @@ struct ReadOptions {
     visit(name, OptionField{.name = "name", .description = "Overrides the name the file carries"});
     visit(role, OptionField{.name = "role",
                             .description = "Overrides what the file says its surfaces, lines or points are",
-                            .words = {"fault", "horizon", "unconformity", "boundary", "intrusion", "well", "points",
-                                      "outline", "hole", "curve"}});
+                            .words = role_words()});
   }
 };
 
@@ -32,7 +32,7 @@ Result<void> rename_input(InputData& data, const ReadOptions& options);
 /// Reads one input file. Its key holds the file's content and name, not its folder.
 struct Read {
   static constexpr std::string_view name = "read";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   ReadOptions options;
   std::filesystem::path file;  ///< absolute
 

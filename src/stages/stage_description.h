@@ -20,11 +20,12 @@ struct OptionDescription {
   std::string description;
 };
 
-/// Lists the fields of an options aggregate; hand it to `visit_fields`.
+/// Lists the fields of an options aggregate that a job file can set; hand it to `visit_fields`.
 class OptionDescriber {
  public:
   template <class T>
   void operator()(const T& value, const OptionField& field) {
+    if (field.is_internal) return;
     OptionDescription& option = options_.emplace_back(describe(field));
     option.type = type_word(value);
     OptionPrinter printer;

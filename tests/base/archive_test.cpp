@@ -35,6 +35,18 @@ TEST(Archive, every_truncation_is_noticed) {
     EXPECT_FALSE(unarchived<Nested>(std::span(bytes.data(), size)).has_value()) << size;
 }
 
+TEST(Archive, a_damaged_bool_is_noticed) {
+  std::vector<std::byte> bytes = archived(true);
+  EXPECT_EQ(bytes.size(), 1u);
+  EXPECT_EQ(unarchived<bool>(bytes), true);
+  EXPECT_EQ(unarchived<bool>(archived(false)), false);
+  bytes[0] = std::byte{2};
+  EXPECT_FALSE(unarchived<bool>(bytes).has_value());
+  bytes = archived(std::optional<bool>(true));
+  bytes[0] = std::byte{0xff};
+  EXPECT_FALSE(unarchived<std::optional<bool>>(bytes).has_value());
+}
+
 TEST(Archive, bytes_left_over_are_noticed) {
   std::vector<std::byte> bytes = archived(sample);
   bytes.push_back(std::byte{0});

@@ -1,6 +1,7 @@
 #include "base/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "support/scratch_folder.h"
 
@@ -29,6 +30,25 @@ TEST(AtomicFile, a_folder_and_a_missing_file_are_named) {
   const auto missing = read_file(scratch.path() / "none");
   ASSERT_FALSE(missing);
   EXPECT_NE(missing.failure().what.find("none"), std::string::npos);
+}
+
+TEST(AtomicFile, a_pipe_and_an_endless_device_are_refused_at_once) {
+  const support::ScratchFolder scratch;
+  const fs::path pipe = scratch.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);  // nobody will ever write to it
+  for (const fs::path& file : {pipe, fs::path("/dev/zero")}) {
+    const auto read = read_file(file);
+    ASSERT_FALSE(read) << file;
+    EXPECT_EQ(read.failure().code, FailureCode::unreadable_file);
+    EXPECT_NE(read.failure().what.find(file.string() + ": is a pipe or a device"), std::string::npos);
+    EXPECT_FALSE(read.failure().remedy.empty());
+  }
+}
+
+TEST(AtomicFile, a_file_that_does_not_know_its_size_is_read_whole) {
+  const auto text = read_file("/proc/self/status");
+  ASSERT_TRUE(text);
+  EXPECT_NE(text->find("Name:"), std::string::npos);
 }
 
 TEST(AtomicFile, a_place_that_cannot_be_written_fails_and_leaves_nothing) {

@@ -46,6 +46,22 @@ TEST(ChildProcess, is_killed_at_its_time_limit) {
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
 }
 
+TEST(ChildProcess, is_killed_at_its_time_limit_though_its_output_is_closed) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto outcome = run_child_process("/bin/sh", {"-c", "printf done; exec sleep 60 >&-"}, {}, 0.3);
+  ASSERT_TRUE(outcome);
+  EXPECT_TRUE(outcome->timed_out);
+  EXPECT_EQ(outcome->output.size(), 4u);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
+}
+
+TEST(ChildProcess, may_work_on_after_closing_its_output) {
+  const auto outcome = run_child_process("/bin/sh", {"-c", "exec >&-; sleep 0.2; exit 5"}, {}, 20);
+  ASSERT_TRUE(outcome);
+  EXPECT_EQ(outcome->exit_code, 5);
+  EXPECT_FALSE(outcome->timed_out);
+}
+
 TEST(ChildProcess, a_time_limit_past_the_clocks_range_is_no_limit) {
   const auto outcome = run_child_process("/bin/sleep", {"0.3"}, {}, 1e300);
   ASSERT_TRUE(outcome);

@@ -4,9 +4,6 @@
 
 #include "base/failure.h"
 #include "base/internal_error.h"
-#include "base/log.h"
-#include "support/scratch_folder.h"
-#include "base/atomic_file.h"
 
 namespace strataflow {
 namespace {
@@ -40,17 +37,6 @@ TEST(Failure, every_code_has_a_word_of_its_own) {
     words.push_back(to_string(static_cast<FailureCode>(code)));
   std::sort(words.begin(), words.end());
   EXPECT_EQ(std::unique(words.begin(), words.end()), words.end());
-}
-
-TEST(Log, a_file_gets_every_line_while_it_is_open) {
-  const support::ScratchFolder scratch;
-  open_log_file(scratch.path() / "log.txt");
-  log_line(LogLevel::debug, "quiet line");
-  close_log_file();
-  log_line(LogLevel::debug, "after");
-  const std::string text = *read_file(scratch.path() / "log.txt");
-  EXPECT_NE(text.find("quiet line"), std::string::npos);
-  EXPECT_EQ(text.find("after"), std::string::npos);
 }
 
 }  // namespace

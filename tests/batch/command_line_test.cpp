@@ -36,8 +36,8 @@ class CommandLine : public testing::Test {
 TEST_F(CommandLine, tells_its_version_and_every_librarys) {
   const CommandOutcome outcome = strataflow({"--version"});
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* name : {"strataflow 0.", "oneTBB 2", "CGAL 5", "TetGen 1", "zlib 1", "toml++ 3", "CLI11 2",
-                           "spdlog 1", "xxHash 0", "pugixml 1", "nlohmann-json 3"})
+  for (const char* name : {"strataflow 0.", "oneTBB 2", "CGAL 5", "TetGen 1", "spdlog 1", "zlib 1", "toml++ 3", "CLI11 2",
+                           "xxHash 0", "pugixml 1", "nlohmann-json 3"})
     EXPECT_THAT(outcome.out, HasSubstr(name));
 }
 
@@ -267,6 +267,25 @@ TEST_F(CommandLine, keeps_the_store_where_it_is_told) {
   const CommandOutcome again = strataflow({"run", a, "--cache", file("store").string(), "--progress", "plain"});
   EXPECT_THAT(again.err, HasSubstr("build_model: from the store"));
   ASSERT_EQ(strataflow({"run", a, "--cache", "/dev/null/store"}).exit_code, 1);
+}
+
+TEST_F(CommandLine, says_on_the_screen_and_in_the_log_what_could_not_be_stored) {
+  const std::string a = job("a.toml", model);
+  for (int first = 0; first < 256; ++first) {  // files where the store wants folders
+    std::array<char, 3> name{};
+    std::snprintf(name.data(), name.size(), "%02x", static_cast<unsigned>(first));
+    write_text(file("store") / name.data(), "in the way");
+  }
+  const CommandOutcome outcome = strataflow({"run", a, "--cache", file("store").string()});
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, HasSubstr("a: build_model: not_stored: "));
+  EXPECT_THAT(read_text(file("out") / "a" / "log.txt"), HasSubstr("    warning: not_stored: "));
+}
+
+TEST_F(CommandLine, exits_1_when_its_result_is_lost) {
+  const CommandOutcome outcome = strataflow({"stages"}, ">/dev/full");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_THAT(outcome.err, HasSubstr("standard output: No space left on device"));
 }
 
 }  // namespace

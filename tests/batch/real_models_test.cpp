@@ -1,11 +1,13 @@
 // Real sealed models, from file to validated tetrahedra: the true regions and volumes, conforming, no inverted cell.
+// Real raw ones: the true number of intersections.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
-#include "batch/run_batch.h"
+#include "batch/check_model.h"
+#include "batch/run/run_batch.h"
 #include "support/command_line.h"
 
 namespace strataflow {
@@ -70,6 +72,22 @@ INSTANTIATE_TEST_SUITE_P(Sealed, RealModel,
                                name.begin(), name.end(), [](unsigned char c) { return !std::isalnum(c); }, '_');
                            return name;
                          });
+
+TEST(RawModel, drogon_meets_itself_as_often_as_counted_elsewhere_coincident_horizons_included) {
+  const fs::path folder = data_folder() / "drogon";
+  if (!fs::exists(folder)) GTEST_SKIP() << folder << " is not there: set STRATAFLOW_DATA to the real models";
+  const nlohmann::json expected = nlohmann::json::parse(support::read_text(data_folder() / "expected.json"))["drogon"];
+  std::vector<fs::path> files = {folder / "faults_F1-F6.ts"};
+  for (const char* horizon : {"01_topvolantis", "02_toptherys", "03_topvolon", "04_basevolantis"})
+    files.push_back(folder / (std::string(horizon) + ".ply.gz"));
+  const Result<CheckedModel> checked = check_model(files);
+  ASSERT_TRUE(checked) << describe(checked.failure());
+  const ValidityReport& validity = checked->validity;
+  EXPECT_EQ(validity.intersecting_triangle_pairs - validity.self_intersecting_pairs,
+            expected["intersecting_triangle_pairs"].get<std::uint64_t>());  // told across surfaces
+  EXPECT_EQ(validity.identical_triangle_pairs, expected["coincident_duplicate_triangles"].get<std::uint64_t>());
+  for (const Violation& violation : validity.violations) EXPECT_NE(violation.kind, "volume_imbalance");
+}
 
 }  // namespace
 }  // namespace strataflow

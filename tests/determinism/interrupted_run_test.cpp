@@ -40,6 +40,21 @@ int wait_for(pid_t child) {
   return status;
 }
 
+/// Waits until the store of a run holds an output; false when the run ends before.
+bool waits_for_an_entry(const fs::path& store, pid_t run) {
+  const auto is_entry = [](const fs::directory_entry& entry) {
+    std::error_code gone;
+    return entry.path().filename().string().size() == 28 && entry.is_regular_file(gone);
+  };
+  while (::waitpid(run, nullptr, WNOHANG) == 0) {
+    std::error_code error;
+    for (fs::recursive_directory_iterator it(store, error), end; !error && it != end; it.increment(error))
+      if (is_entry(*it)) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return false;
+}
+
 TEST(InterruptedRun, killed_at_any_moment_resumes_with_the_same_bytes) {
   const support::ScratchFolder scratch;
   const std::string job =
@@ -83,7 +98,8 @@ TEST(InterruptedRun, told_to_stop_exits_1_and_writes_nothing) {
     write_text(scratch.path() / "a.toml",
                "[[input]]\nmodel = \"A6\"\nresolution_m = 8.0\n[output]\nproducts = [\"model\", \"tets\"]\n");
     const pid_t child = start(scratch.path() / "a.toml", scratch.path() / "store");
-    std::this_thread::sleep_for(std::chrono::milliseconds(400));
+    // The first stage is through: the run is at work, and the long stages are still to come.
+    ASSERT_TRUE(waits_for_an_entry(scratch.path() / "store", child));
     ASSERT_EQ(::kill(child, signal), 0);
     const int status = wait_for(child);
     ASSERT_TRUE(WIFEXITED(status));

@@ -1,7 +1,7 @@
 // The same job gives the same bytes in report.json and every mesh, whatever the schedule, the store and the company.
 #include <gtest/gtest.h>
 
-#include "batch/run_batch.h"
+#include "batch/run/run_batch.h"
 #include "graph/stage_store.h"
 #include "support/command_line.h"
 #include "support/sanitized.h"
@@ -15,7 +15,7 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 /// Of the shuffled executor; one takes 0.5 s, under the address sanitizer 7 s.
 constexpr std::uint64_t shuffled_schedules = support::sanitized ? 5 : 50;
 
-/// Two jobs that share stages, one of them a sweep.
+/// Jobs that share stages, one of them a sweep, and one of raw surfaces.
 class JobDeterminism : public testing::Test {
  protected:
   void SetUp() override {
@@ -25,7 +25,10 @@ class JobDeterminism : public testing::Test {
     support::write_text(scratch_.path() / "b.toml",
                         "[[input]]\nmodel = \"A2\"\nresolution_m = 110.0\n[output]\nproducts = [\"tets\"]\n"
                         "[sweep]\n\"tetrahedralize.radius_edge_ratio\" = [1.8, 2.5]\n");
-    for (const char* name : {"a.toml", "b.toml"}) {
+    support::write_text(scratch_.path() / "raw.toml",
+                        "[[input]]\nmodel = \"A6\"\nresolution_m = 110.0\nraw_ratio = -0.01\n"
+                        "[output]\nproducts = [\"model\"]\n[cut]\nmode = \"always\"\n[simplify]\nborders = true\n");
+    for (const char* name : {"a.toml", "b.toml", "raw.toml"}) {
       const Result<std::vector<Job>> read = read_jobs(scratch_.path() / name);
       ASSERT_TRUE(read) << describe(read.failure());
       jobs_.insert(jobs_.end(), read->begin(), read->end());
@@ -54,7 +57,7 @@ TEST_F(JobDeterminism, holds_for_every_number_of_threads) {
   RunOptions serial;
   serial.executor = ExecutorKind::serial;
   const std::vector<Files> expected = run(serial);
-  ASSERT_EQ(expected.size(), 3u);
+  ASSERT_EQ(expected.size(), 4u);
   ASSERT_EQ(expected[0].size(), 6u);  // report.json, report.html, job.toml and three meshes
   for (const int threads : {1, 2, 3, 8}) {
     RunOptions options;

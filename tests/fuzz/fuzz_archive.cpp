@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "base/internal_error.h"
-#include "io/input_file.h"
+#include "io/bytes/input_file.h"
 #include "io/read_input.h"
 
 /// Whatever the bytes: gzip and tar give a value or a named failure, and never take more room than they may.

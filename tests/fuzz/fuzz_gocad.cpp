@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <string_view>
 
-#include "io/combine_inputs.h"
-#include "io/local_origin.h"
-#include "io/read_gocad.h"
-#include "io/write_gocad.h"
+#include "io/gocad/read_gocad.h"
+#include "io/gocad/write_gocad.h"
+#include "io/input/combine_inputs.h"
+#include "io/input/local_origin.h"
 
 /// Whatever the bytes: a value or a named failure; and what was read can be combined, shifted and written.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -27,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       STRATAFLOW_ASSERT(side.patch < input->surfaces.patch_entity.size(), "region side out of range");
   for (const PointProperty& property : input->surfaces.properties)
     STRATAFLOW_ASSERT(property.values.size() == point_count * property.width, "property of another length");
-  InputData both = combine_inputs({*input, *input});
+  InputData both = *combine_inputs({*input, *input});
   shift_to_local_origin(both);
   const std::string text = write_gocad_ts(both.surfaces);
   if (!both.surfaces.triangles.empty()) {

@@ -3,8 +3,8 @@
 #include <string_view>
 
 #include "base/internal_error.h"
-#include "batch/job.h"
-#include "batch/resolved_job.h"
+#include "batch/job_file/job.h"
+#include "batch/job_file/resolved_job.h"
 
 /// Whatever the bytes: jobs, or a named failure with a remedy; and a job that was read reads again from its resolved
 /// form as the same job.

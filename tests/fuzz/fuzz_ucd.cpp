@@ -1,4 +1,4 @@
-#include "io/read_ucd.h"
+#include "io/mesh/read_ucd.h"
 #include "mesh_reader_contract.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

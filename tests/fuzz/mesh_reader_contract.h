@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "io/write_abaqus.h"
-#include "io/write_gmsh.h"
-#include "io/write_medit.h"
-#include "io/write_obj.h"
-#include "io/write_vtk_xml.h"
+#include "io/mesh/write_abaqus.h"
+#include "io/mesh/write_gmsh.h"
+#include "io/mesh/write_medit.h"
+#include "io/surface/write_obj.h"
+#include "io/vtk/write_vtk_xml.h"
 #include "model/input_data.h"
 
 namespace strataflow {

@@ -6,9 +6,9 @@
 
 #include "base/archive.h"
 #include "base/seed.h"
-#include "input_samples.h"
-#include "io/input_builder.h"
-#include "io/input_file.h"
+#include "io/bytes/input_file.h"
+#include "io/input/input_builder.h"
+#include "io/input_samples.h"
 
 namespace strataflow::support {
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "mesh_damage.h"
+#include "io/mesh_damage.h"
 
 namespace strataflow::support {
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include "base/atomic_file.h"
-#include "input_samples.h"
-#include "io/input_file.h"
-#include "io/tar_members.h"
+#include "io/bytes/input_file.h"
+#include "io/bytes/tar_members.h"
+#include "io/input_samples.h"
 
 namespace strataflow {
 namespace {

@@ -16,6 +16,19 @@ TEST(Role, words_and_roles_are_one_to_one) {
   EXPECT_FALSE(role_from("Fault").has_value());
 }
 
+TEST(Role, a_job_file_may_say_every_one_but_unknown) {
+  EXPECT_EQ(role_words().size(), static_cast<std::size_t>(Role::curve));
+  for (const std::string_view word : role_words()) EXPECT_NE(role_from(word).value_or(Role::unknown), Role::unknown);
+}
+
+TEST(Entity, the_youngest_cuts_the_others_off_and_of_equals_the_last_counts) {
+  const std::vector<Entity> all{{"F", Role::fault}, {"H1", Role::horizon}, {"U", Role::unconformity}, {"box", Role::boundary}, {"?", Role::unknown}};
+  EXPECT_EQ(youngest_of(all, {0, 1, 2, 3, 4}), 3u);
+  EXPECT_EQ(youngest_of(all, {0, 1, 2}), 0u);
+  EXPECT_EQ(youngest_of(all, {2, 1, 4}), 2u);
+  EXPECT_EQ(youngest_of(all, {4}), 4u);
+}
+
 TEST(Box3, is_empty_until_it_takes_a_point) {
   Box3 box;
   EXPECT_TRUE(box.is_empty());

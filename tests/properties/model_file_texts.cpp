@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "io/number_text.h"
+#include "io/text/number_text.h"
 
 namespace strataflow::support {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "batch/check_model.h"
-#include "io/combine_inputs.h"
-#include "io/local_origin.h"
+#include "io/input/combine_inputs.h"
+#include "io/input/local_origin.h"
 #include "io/read_input.h"
 #include "kernels/topology/build_structural_model.h"
 #include "kernels/topology/check_validity.h"
@@ -61,7 +61,7 @@ inline InputData read_texts(const std::vector<TextFile>& files) {
     EXPECT_TRUE(part) << describe(part.failure());
     if (part) parts.push_back(*std::move(part));
   }
-  InputData whole = combine_inputs(std::move(parts));
+  InputData whole = *combine_inputs(std::move(parts));
   shift_to_local_origin(whole);
   return whole;
 }

@@ -1,6 +1,6 @@
 // What a user sees of a real model after every kind of transformation: `strataflow check --json`.
-#include "io/labelled_triangles.h"
-#include "io/write_obj.h"
+#include "io/input/labelled_triangles.h"
+#include "io/surface/write_obj.h"
 #include "properties/read_model.h"
 #include "properties/rotation.h"
 

@@ -1,6 +1,6 @@
 // Real models say the same whatever order, turn, place or format their triangles come in.
-#include "io/labelled_triangles.h"
-#include "io/write_obj.h"
+#include "io/input/labelled_triangles.h"
+#include "io/surface/write_obj.h"
 #include "properties/read_model.h"
 #include "properties/rotation.h"
 

@@ -1,7 +1,9 @@
 #pragma once
-#include <array>
-#include <cstdint>
 #include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "model/box3.h"
@@ -12,6 +14,12 @@ namespace strataflow {
 struct FloatBox {
   std::array<float, 3> low{};
   std::array<float, 3> high{};
+
+  /// A box that overlaps no box.
+  static constexpr FloatBox nothing() {
+    constexpr float far = std::numeric_limits<float>::infinity();
+    return {{far, far, far}, {-far, -far, -far}};
+  }
 };
 
 inline bool overlap(const FloatBox& a, const FloatBox& b) {
@@ -21,12 +29,39 @@ inline bool overlap(const FloatBox& a, const FloatBox& b) {
 
 FloatBox enclosing(const Box3& box);
 
-/// A complete binary tree of boxes over items sorted along a space-filling curve. Leaves hold `leaf_size`
-/// consecutive items; level l has ceil(leaves / 2^l) nodes, node n covers nodes 2n and 2n + 1 of the level below.
-/// About 36 bytes an item. Building and queries run in parallel and do not depend on the schedule.
+/// Four boxes side by side, so that one box is compared with all of them at once. Missing ones overlap nothing.
+struct FourBoxes {
+  static constexpr std::uint32_t size = 4;
+  std::array<std::array<float, size>, 3> low, high;
+
+  FloatBox box(std::uint32_t k) const {
+    return {{low[0][k], low[1][k], low[2][k]}, {high[0][k], high[1][k], high[2][k]}};
+  }
+  void set(std::uint32_t k, const FloatBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis][k] = box.low[axis];
+      high[axis][k] = box.high[axis];
+    }
+  }
+  /// Bit k is set when item k overlaps `other`.
+  std::uint32_t overlaps(const FloatBox& other) const {
+    using Four = float __attribute__((vector_size(16)));
+    using FourBits = std::int32_t __attribute__((vector_size(16)));
+    FourBits hit{1, 2, 4, 8};
+    for (int axis = 0; axis < 3; ++axis) {
+      const Four least = std::bit_cast<Four>(low[axis]), most = std::bit_cast<Four>(high[axis]);
+      hit &= (least <= other.high[axis]) & (most >= other.low[axis]);
+    }
+    return static_cast<std::uint32_t>(hit[0] | hit[1] | hit[2] | hit[3]);
+  }
+};
+
+/// A complete tree of boxes, four to a node, over items sorted along a space-filling curve. Leaves hold `leaf_size`
+/// consecutive items, nodes four consecutive leaves or nodes of the level below. About 36 bytes an item. Building and
+/// queries run in parallel and do not depend on the schedule.
 class BoundingVolumeTree {
  public:
-  static constexpr std::uint32_t leaf_size = 4;
+  static constexpr std::uint32_t leaf_size = FourBoxes::size;
 
   BoundingVolumeTree() = default;
   explicit BoundingVolumeTree(const std::vector<FloatBox>& item_boxes);
@@ -34,8 +69,10 @@ class BoundingVolumeTree {
   std::uint32_t item_count() const { return static_cast<std::uint32_t>(items_.size()); }
   /// Item at a place along the curve, and its box.
   std::uint32_t item_at(std::uint32_t place) const { return items_[place]; }
-  const FloatBox& box_at(std::uint32_t place) const { return boxes_[place]; }
-  const std::vector<FloatBox>& leaf_boxes() const { return levels_.front(); }
+  FloatBox box_at(std::uint32_t place) const { return boxes_[place / leaf_size].box(place % leaf_size); }
+  const FourBoxes& item_boxes(std::uint32_t leaf) const { return boxes_[leaf]; }
+  std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(boxes_.size()); }
+  FloatBox leaf_box(std::uint32_t leaf) const { return levels_.front()[leaf / 4].box(leaf % 4); }
 
   /// Calls visit(leaf) for every leaf ≥ first_leaf whose box overlaps `box`, in ascending order.
   template <class Visit>
@@ -49,14 +86,17 @@ class BoundingVolumeTree {
     stack[depth++] = {static_cast<std::uint32_t>(levels_.size() - 1), 0};
     while (depth > 0) {
       const auto [level, node] = stack[--depth];
-      if (((node + std::uint64_t{1}) << level) <= first_leaf || !overlap(levels_[level][node], box)) continue;
+      std::uint32_t hits = levels_[level][node].overlaps(box);
       if (level == 0) {
-        visit(node);
+        for (; hits != 0; hits &= hits - 1) {
+          const std::uint32_t leaf = 4 * node + static_cast<std::uint32_t>(std::countr_zero(hits));
+          if (leaf >= first_leaf) visit(leaf);
+        }
         continue;
       }
-      const std::uint32_t left = 2 * node;
-      if (left + 1 < levels_[level - 1].size()) stack[depth++] = {level - 1, left + 1};
-      stack[depth++] = {level - 1, left};
+      for (std::uint32_t k = 4; k-- > 0;)
+        if ((hits >> k & 1) != 0 && ((4 * node + k + std::uint64_t{1}) << 2 * level) > first_leaf)
+          stack[depth++] = {level - 1, 4 * node + k};
     }
   }
 
@@ -64,16 +104,15 @@ class BoundingVolumeTree {
   template <class Visit>
   void visit_items(const FloatBox& box, Visit&& visit) const {
     visit_leaves(box, 0, [&](std::uint32_t leaf) {
-      const std::uint32_t end = std::min(item_count(), (leaf + 1) * leaf_size);
-      for (std::uint32_t place = leaf * leaf_size; place < end; ++place)
-        if (overlap(boxes_[place], box)) visit(items_[place]);
+      for (std::uint32_t hits = boxes_[leaf].overlaps(box); hits != 0; hits &= hits - 1)
+        visit(items_[leaf * leaf_size + static_cast<std::uint32_t>(std::countr_zero(hits))]);
     });
   }
 
  private:
   std::vector<std::uint32_t> items_;
-  std::vector<FloatBox> boxes_;
-  std::vector<std::vector<FloatBox>> levels_;  ///< [0] leaves … back() the root
+  std::vector<FourBoxes> boxes_;                ///< per leaf
+  std::vector<std::vector<FourBoxes>> levels_;  ///< [0] boxes of leaves … back() the root alone
 };
 
 }  // namespace strataflow

@@ -268,7 +268,7 @@ class RawSections {
           const bool is_past_branch = y[j] < fault.south_m && fault.south_m > model_.box.low.y;
           if (!is_past_branch) return on_line(y[j]);
           // Straight on through the fault it branches from, which it would follow otherwise.
-          return 2.0 * on_line(fault.south_m) - on_line(2 * fault.south_m - y[j]) + Vec3{0, 0, z};
+          return 2.0 * on_line(fault.south_m) - on_line(2 * fault.south_m - y[j]);
         });
   }
 

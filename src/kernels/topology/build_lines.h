@@ -9,7 +9,7 @@ namespace strataflow {
 
 /// The one-dimensional part of a model.
 struct LineNetwork {
-  std::vector<Corner> corners;                        ///< ascending by vertex
+  std::vector<Corner> corners;  ///< ascending by vertex
   std::vector<Line> lines;
   std::vector<std::vector<std::uint32_t>> line_edges;  ///< per line: its edges, in order along it
 };

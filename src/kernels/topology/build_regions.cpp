@@ -1,15 +1,17 @@
 #include "kernels/topology/build_regions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
+#include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/topology/radial_order.h"
 #include "kernels/topology/shell_containment.h"
 #include "kernels/topology/union_find.h"
-#include "base/id.h"
 
 namespace strataflow {
 
@@ -101,11 +103,7 @@ VolumeIntegral integral_of(const StructuralModel& model, const Surface& surface,
 
 int exact_volume_sign(const StructuralModel& model, const Frontier& frontier) {
   std::vector<Triangle> outward;
-  for (std::size_t i = 0; i < frontier.sides.size(); ++i) {
-    const SurfaceSide side = frontier.sides[i];
-    const bool both = (i > 0 && frontier.sides[i - 1].surface == side.surface) ||
-                      (i + 1 < frontier.sides.size() && frontier.sides[i + 1].surface == side.surface);
-    if (both) continue;  // the two sides cancel exactly
+  for (const SurfaceSide side : closed_shell_of(frontier.sides)) {  // both sides of a surface cancel exactly
     const Surface& surface = model.surfaces[side.surface];
     for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) {
       const Triangle& v = model.triangles[t];
@@ -144,48 +142,53 @@ void build_frontiers(StructuralModel& model, UnionFind& linked) {
 Box3 box_of(const StructuralModel& model, const Frontier& frontier) {
   Box3 box;
   for (const SurfaceSide side : frontier.sides)
-    for (std::uint32_t t = model.surfaces[side.surface].first_triangle; t < model.surfaces[side.surface].end_triangle; ++t)
+    for (std::uint32_t t = model.surfaces[side.surface].first_triangle; t < model.surfaces[side.surface].end_triangle;
+         ++t)
       for (const std::uint32_t v : model.triangles[t]) box.take(model.points[v]);
   return box;
 }
 
-/// +1 inside, −1 outside: asked of the frontier's points, lowest first, until one is not on the shell itself.
+bool contains(const Box3& outer, const Box3& inner) {
+  return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
+         outer.high.x >= inner.high.x && outer.high.y >= inner.high.y && outer.high.z >= inner.high.z;
+}
+
+/// Asked of the interior of the frontier's triangles, in order, until one is not on the shell itself: its vertices may
+/// all be.
 bool lies_inside(const StructuralModel& model, const Frontier& inner, const Frontier& shell) {
-  std::vector<std::uint32_t> vertices;
+  const std::vector<SurfaceSide> closed_shell = closed_shell_of(shell.sides);
   for (const SurfaceSide side : inner.sides)
-    for (std::uint32_t t = model.surfaces[side.surface].first_triangle; t < model.surfaces[side.surface].end_triangle; ++t)
-      vertices.insert(vertices.end(), model.triangles[t].begin(), model.triangles[t].end());
-  std::sort(vertices.begin(), vertices.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return model.points[a].z != model.points[b].z ? model.points[a].z < model.points[b].z : a < b;
-  });
-  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
-  for (const std::uint32_t v : vertices) {
-    const int place = place_in_shell(model, shell.sides, model.points[v]);
-    if (place != 0) return place > 0;
-  }
+    for (std::uint32_t t = model.surfaces[side.surface].first_triangle; t < model.surfaces[side.surface].end_triangle;
+         ++t) {
+      const auto [a, b, c] = model.triangles[t];
+      const int place =
+          place_in_shell(model, closed_shell, std::array{model.points[a], model.points[b], model.points[c]});
+      if (place != 0) return place > 0;
+    }
   return false;
 }
 
+/// What nesting needs to know of every frontier.
+struct FrontierExtent {
+  Box3 box;
+  std::uint32_t body;  ///< surfaces joined by lines form one; its sides face the outside of its own shells
+  bool is_undecided;   ///< it has a surface on a line whose order is unknown: sides may be missing or too many
+};
+
 /// Cavities and dangling pieces go to the innermost region around them (euler1999 §2.2.4 step 3 and its traps).
-void nest_internal_frontiers(StructuralModel& model, const std::vector<std::uint32_t>& body_of) {
-  std::vector<Box3> boxes(model.frontiers.size());
-  for (std::size_t f = 0; f < model.frontiers.size(); ++f) boxes[f] = box_of(model, model.frontiers[f]);
-  const auto contains = [](const Box3& outer, const Box3& inner) {
-    return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
-           outer.high.x >= inner.high.x && outer.high.y >= inner.high.y && outer.high.z >= inner.high.z;
-  };
+void nest_internal_frontiers(StructuralModel& model, const std::vector<FrontierExtent>& extents) {
   const auto owners = parallel_map(model.frontiers.size(), [&](std::size_t f) {
     const Frontier& inner = model.frontiers[f];
     std::uint32_t best = universe;
     if (inner.volume_sign > 0) return best;
     for (std::uint32_t r = 0; r < model.regions.size(); ++r) {
+      const FrontierExtent& around = extents[model.regions[r].external_frontier];
       const Frontier& shell = model.frontiers[model.regions[r].external_frontier];
-      // The sides of one connected body face the outside of its own shells.
-      if (body_of[inner.sides[0].surface] == body_of[shell.sides[0].surface]) continue;
-      if (best != universe && model.frontiers[model.regions[best].external_frontier].signed_volume_m3 <= shell.signed_volume_m3)
+      if (around.body == extents[f].body) continue;
+      if (best != universe &&
+          model.frontiers[model.regions[best].external_frontier].signed_volume_m3 <= shell.signed_volume_m3)
         continue;
-      if (!contains(boxes[model.regions[r].external_frontier], boxes[f]) || !lies_inside(model, inner, shell)) continue;
-      best = r;
+      if (contains(around.box, extents[f].box) && lies_inside(model, inner, shell)) best = r;
     }
     return best;
   });
@@ -200,6 +203,17 @@ void nest_internal_frontiers(StructuralModel& model, const std::vector<std::uint
   }
 }
 
+/// A region is not known when its shell is undecided, or when an undecided frontier may lie in it.
+void forget_undecided_volumes(StructuralModel& model, const std::vector<FrontierExtent>& extents) {
+  for (Region& region : model.regions) {
+    const FrontierExtent& shell = extents[region.external_frontier];
+    const bool is_unknown = std::any_of(extents.begin(), extents.end(), [&](const FrontierExtent& other) {
+      return other.is_undecided && (&other == &shell || (other.body != shell.body && contains(shell.box, other.box)));
+    });
+    if (is_unknown) region.volume_m3 = std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 }  // namespace
 
 std::vector<Violation> build_regions(StructuralModel& model, const EdgeTable& edges,
@@ -210,6 +224,7 @@ std::vector<Violation> build_regions(StructuralModel& model, const EdgeTable& ed
   });
   UnionFind linked(2 * model.surfaces.size());
   UnionFind body(model.surfaces.size());
+  std::vector<char> is_undecided(model.surfaces.size(), 0);
   for (std::size_t line = 0; line < links.size(); ++line) {
     for (const auto& [a, b] : links[line].pairs) linked.unite(a, b);
     for (const std::uint32_t s : model.lines[line].surfaces) body.unite(s, model.lines[line].surfaces[0]);
@@ -220,10 +235,13 @@ std::vector<Violation> build_regions(StructuralModel& model, const EdgeTable& ed
                             "look for triangles that coincide, have no area or cross there",
                             model.points[edges.edges[links[line].edge][0]], count});
     };
-    if (links[line].ambiguous_edges == line_edges[line].size())
+    const bool is_unsorted = links[line].ambiguous_edges == line_edges[line].size();
+    if (is_unsorted)
       report("unsorted_contact", links[line].ambiguous_edges, "the order of the surfaces around it cannot be told");
     if (links[line].disagreeing_edges > 0)
       report("radial_order_changes", links[line].disagreeing_edges, "the order of the surfaces around it changes");
+    if (is_unsorted || links[line].disagreeing_edges > 0)
+      for (const std::uint32_t s : model.lines[line].surfaces) is_undecided[s] = 1;
   }
   build_frontiers(model, linked);
   for (std::uint32_t f = 0; f < model.frontiers.size(); ++f) {
@@ -234,9 +252,13 @@ std::vector<Violation> build_regions(StructuralModel& model, const EdgeTable& ed
     region.volume_m3 = model.frontiers[f].signed_volume_m3;
     model.regions.push_back(std::move(region));
   }
-  std::vector<std::uint32_t> body_of(model.surfaces.size());
-  for (std::uint32_t s = 0; s < body_of.size(); ++s) body_of[s] = body.find(s);
-  nest_internal_frontiers(model, body_of);
+  std::vector<FrontierExtent> extents;
+  for (const Frontier& frontier : model.frontiers)
+    extents.push_back({box_of(model, frontier), body.find(frontier.sides[0].surface),
+                       std::any_of(frontier.sides.begin(), frontier.sides.end(),
+                                   [&](const SurfaceSide side) { return is_undecided[side.surface] != 0; })});
+  nest_internal_frontiers(model, extents);
+  forget_undecided_volumes(model, extents);
   for (const Frontier& frontier : model.frontiers)
     for (const SurfaceSide side : frontier.sides)
       (side.is_positive ? model.surfaces[side.surface].region_plus : model.surfaces[side.surface].region_minus) =

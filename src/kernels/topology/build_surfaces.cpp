@@ -11,10 +11,10 @@ bool runs_upward(const std::vector<Triangle>& triangles, std::uint32_t h) {
 }  // namespace
 
 SurfacePartition build_surfaces(const EdgeTable& edges, const std::vector<Triangle>& triangles,
-                                const std::vector<std::uint32_t>& triangle_patch) {
+                                const std::vector<std::uint32_t>& triangle_label) {
   SurfacePartition out;
   out.is_feature.resize(edges.edge_count());
-  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) out.is_feature[e] = is_feature_edge(edges, e, triangle_patch);
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e) out.is_feature[e] = is_feature_edge(edges, e, triangle_label);
   out.surface_of.assign(triangles.size(), no_index);
   out.is_flipped.assign(triangles.size(), 0);
   std::vector<std::uint32_t> members;
@@ -33,7 +33,8 @@ SurfacePartition build_surfaces(const EdgeTable& edges, const std::vector<Triang
         const auto around = edges.around(e);
         const std::uint32_t other = around[0] == h ? around[1] : around[0], u = other / 3;
         // Coherent neighbours run along their shared edge in opposite directions.
-        const char wanted = static_cast<char>(out.is_flipped[t] ^ (runs_upward(triangles, h) == runs_upward(triangles, other)));
+        const char wanted =
+            static_cast<char>(out.is_flipped[t] ^ (runs_upward(triangles, h) == runs_upward(triangles, other)));
         if (out.surface_of[u] == no_index) {
           out.surface_of[u] = surface;
           out.is_flipped[u] = wanted;

@@ -7,7 +7,8 @@
 
 namespace strataflow {
 
-/// Triangles split into surfaces: components across edges where exactly two triangles of one patch meet.
+/// Triangles split into surfaces: components across edges where exactly two triangles of one label meet (a
+/// patch, or the patches that coincide there).
 struct SurfacePartition {
   std::vector<std::uint32_t> surface_of;  ///< per triangle; surfaces are numbered by their first triangle
   std::vector<char> is_flipped;           ///< per triangle: turn it over to agree with its surface
@@ -19,6 +20,6 @@ struct SurfacePartition {
 /// Flood fill with orientation (pellerin2014 §2.1 builder steps 2–3, euler1999 §2.2.1). The orientation that most
 /// of a surface's triangles came with wins; the first triangle's on a tie.
 SurfacePartition build_surfaces(const EdgeTable& edges, const std::vector<Triangle>& triangles,
-                                const std::vector<std::uint32_t>& triangle_patch);
+                                const std::vector<std::uint32_t>& triangle_label);
 
 }  // namespace strataflow

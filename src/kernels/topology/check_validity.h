@@ -5,13 +5,10 @@ namespace strataflow {
 
 /// Checks a built model against the rules for a static one (A1–A16 of euler1999 §3, I1–I6 of pellerin2014 §3) and
 /// returns every violation found, those of the construction included. Exact: the intersection census equals testing
-/// all pairs of triangles.
+/// all pairs of the input's triangles, the identical ones that building merged among them.
 ValidityReport check_validity(const BuiltModel& built);
 
-/// The outer shell is closed, and no two triangles meet improperly or without conforming.
+/// The outer shell is closed, and no two triangles of the model meet improperly or without conforming.
 bool is_sealed(const StructuralModel& model, const ValidityReport& report);
-
-/// A violation that building the model already mended (dropped triangles, rebuilt borders): `run` goes on after it.
-bool is_mended_by_building(const Violation& violation);
 
 }  // namespace strataflow

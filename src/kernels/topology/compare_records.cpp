@@ -5,18 +5,13 @@
 #include <string>
 
 #include "base/id.h"
+#include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {
 
 namespace {
 
 bool is_universe_record(const RegionRecord& record) { return record.name == "Universe"; }
-
-std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
 
 /// Per border record: its two points are the ends of an edge of a triangle, copies of a point being told apart. Along
 /// the slit that a fault leaves in a horizon, a record can name one copy from each lip, which is no edge.
@@ -40,7 +35,8 @@ std::vector<char> find_own_edges(const TriangleSoup& soup) {
       const std::uint32_t v = t[k], w = t[(k + 1) % 3];
       if (!is_end[v] || !is_end[w]) continue;
       const std::array<std::uint32_t, 2> ends{std::min(v, w), std::max(v, w)};
-      for (auto s = std::lower_bound(starts.begin(), starts.end(), Start{ends, 0}); s != starts.end() && s->ends == ends; ++s)
+      for (auto s = std::lower_bound(starts.begin(), starts.end(), Start{ends, 0});
+           s != starts.end() && s->ends == ends; ++s)
         found[s->record] = 1;
     }
   return found;
@@ -53,11 +49,14 @@ struct Match {
 
 }  // namespace
 
-void name_regions(StructuralModel& model, const TriangleSoup& soup, const std::vector<std::uint32_t>& patch_of_surface) {
+void name_regions(StructuralModel& model, const TriangleSoup& soup,
+                  const std::vector<std::vector<std::uint32_t>>& patches_of_surface) {
   std::vector<std::vector<std::uint32_t>> patches_of_region(model.regions.size());
   for (std::size_t s = 0; s < model.surfaces.size(); ++s)
     for (const std::uint32_t region : {model.surfaces[s].region_plus, model.surfaces[s].region_minus})
-      if (region != universe) patches_of_region[region].push_back(patch_of_surface[s]);
+      if (region != universe)
+        patches_of_region[region].insert(patches_of_region[region].end(), patches_of_surface[s].begin(),
+                                         patches_of_surface[s].end());
   for (auto& patches : patches_of_region) patches = sorted_unique(std::move(patches));
 
   std::vector<Match> matches;
@@ -68,8 +67,8 @@ void name_regions(StructuralModel& model, const TriangleSoup& soup, const std::v
     named = sorted_unique(std::move(named));
     for (std::uint32_t region = 0; region < model.regions.size(); ++region) {
       std::vector<std::uint32_t> shared;
-      std::set_intersection(named.begin(), named.end(), patches_of_region[region].begin(), patches_of_region[region].end(),
-                            std::back_inserter(shared));
+      std::set_intersection(named.begin(), named.end(), patches_of_region[region].begin(),
+                            patches_of_region[region].end(), std::back_inserter(shared));
       if (shared.empty()) continue;
       const auto all = static_cast<double>(named.size() + patches_of_region[region].size() - shared.size());
       matches.push_back({static_cast<double>(shared.size()) / all, record, region});
@@ -123,26 +122,28 @@ std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeT
   }
   const char* rebuild = "`strataflow check --repair` and `run` rebuild borders from the geometry";
   if (lost_stones > 0)
-    violations.push_back({"inconsistent_border", Violation::Severity::error,
-                          std::to_string(lost_stones) + " border stones (BSTONE) lie on no line, the first at " +
-                              point_text(lost_stone),
-                          rebuild, soup.points[lost_stone], lost_stones});
+    violations.push_back(
+        {"inconsistent_border", Violation::Severity::error,
+         std::to_string(lost_stones) + " border stones (BSTONE) lie on no line, the first at " + point_text(lost_stone),
+         rebuild, soup.points[lost_stone], lost_stones, true});
   if (lost_borders > 0)
-    violations.push_back({"inconsistent_border", Violation::Severity::error,
-                          std::to_string(lost_borders) +
-                              " borders (BORDER) do not start along an edge of their surface that lies on a line, the first at " +
-                              point_text(soup.border_starts[lost_border][0]),
-                          rebuild, soup.points[soup.border_starts[lost_border][0]], lost_borders});
+    violations.push_back(
+        {"inconsistent_border", Violation::Severity::error,
+         std::to_string(lost_borders) +
+             " borders (BORDER) do not start along an edge of their surface that lies on a line, the first at " +
+             point_text(soup.border_starts[lost_border][0]),
+         rebuild, soup.points[soup.border_starts[lost_border][0]], lost_borders, true});
   if (superfluous > 0)
     violations.push_back({"superfluous_border_stone", Violation::Severity::warning,
-                          std::to_string(superfluous) + " border stones lie inside a line where no surface ends, the first at " +
+                          std::to_string(superfluous) +
+                              " border stones lie inside a line where no surface ends, the first at " +
                               point_text(superfluous_stone),
                           "nothing: the minimal lines are used", soup.points[superfluous_stone], superfluous});
   return violations;
 }
 
 std::vector<Violation> compare_region_records(const StructuralModel& model, const TriangleSoup& soup,
-                                              const std::vector<std::uint32_t>& patch_of_surface) {
+                                              const std::vector<std::vector<std::uint32_t>>& patches_of_surface) {
   std::vector<std::vector<std::uint32_t>> records_of_patch(soup.patch_entity.size());
   for (std::uint32_t record = 0; record < soup.regions.size(); ++record)
     for (const PatchSide& side : soup.regions[record].sides)
@@ -151,13 +152,18 @@ std::vector<Violation> compare_region_records(const StructuralModel& model, cons
   std::vector<Violation> violations;
   for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
-    const auto& records = records_of_patch[patch_of_surface[s]];
-    if (!surface.is_dangling() || records.size() < 2) continue;
+    if (!surface.is_dangling()) continue;
+    std::vector<std::uint32_t> records;
+    for (const std::uint32_t patch : patches_of_surface[s])
+      records.insert(records.end(), records_of_patch[patch].begin(), records_of_patch[patch].end());
+    records = sorted_unique(std::move(records));
+    if (records.size() < 2) continue;
     violations.push_back({"leak", Violation::Severity::error,
                           "surface " + std::to_string(s) + " of '" + model.entities[surface.entity].name +
-                              "' should part '" + soup.regions[records[0]].name + "' from '" + soup.regions[records[1]].name +
-                              "', but the space on its two sides is one",
-                          "close the gap along its border", model.points[model.triangles[surface.first_triangle][0]], 1});
+                              "' should part '" + soup.regions[records[0]].name + "' from '" +
+                              soup.regions[records[1]].name + "', but the space on its two sides is one",
+                          "close the gap along its border", model.points[model.triangles[surface.first_triangle][0]],
+                          1});
   }
   return violations;
 }

@@ -9,8 +9,9 @@
 namespace strataflow {
 
 /// Gives every region the name of the file's record that shares most of its patches, or "region_<number>", and
-/// rebuilds the file's layers. `patch_of_surface` tells which patch each surface came from.
-void name_regions(StructuralModel& model, const TriangleSoup& soup, const std::vector<std::uint32_t>& patch_of_surface);
+/// rebuilds the file's layers. `patches_of_surface` tells which patches each surface came from.
+void name_regions(StructuralModel& model, const TriangleSoup& soup,
+                  const std::vector<std::vector<std::uint32_t>>& patches_of_surface);
 
 /// Border records that do not start along an edge of their own surface on a minimal line, and stones on no line, are
 /// `inconsistent_border` (error: rebuilt on repair); stones in the middle of a line are `superfluous_border_stone`
@@ -20,6 +21,6 @@ std::vector<Violation> compare_borders(const StructuralModel& model, const EdgeT
 
 /// A surface whose sides the file puts into different regions while space joins them is a `leak`.
 std::vector<Violation> compare_region_records(const StructuralModel& model, const TriangleSoup& soup,
-                                              const std::vector<std::uint32_t>& patch_of_surface);
+                                              const std::vector<std::vector<std::uint32_t>>& patches_of_surface);
 
 }  // namespace strataflow

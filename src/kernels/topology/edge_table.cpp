@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "graph/parallel/parallel_map.h"
 #include "base/id.h"
+#include "graph/parallel/parallel_map.h"
 
 namespace strataflow {
 

@@ -1,22 +1,18 @@
 #include "kernels/topology/query_model.h"
 
 #include <algorithm>
-#include <limits>
+#include <array>
+#include <optional>
+#include <tuple>
 
 #include "base/id.h"
-
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/topology/shell_containment.h"
+#include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {
 
 namespace {
-
-std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> values) {
-  std::sort(values.begin(), values.end());
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-  return values;
-}
 
 BoundingVolumeTree tree_of(const StructuralModel& model) {
   std::vector<FloatBox> boxes;
@@ -27,6 +23,49 @@ BoundingVolumeTree tree_of(const StructuralModel& model) {
     boxes.push_back(enclosing(box));
   }
   return BoundingVolumeTree(boxes);
+}
+
+/// A crossing and what is hit, decided exactly: {2·i, 0, 0} vertex i of the path; inside segment i {2·i + 1, v, v} a
+/// vertex of the model, {2·i + 1, v, w} its edge from v to w > v, {2·i + 1, no_index, t} the inside of triangle t.
+struct Hit {
+  PathCrossing crossing;
+  std::array<std::uint32_t, 3> target;
+};
+
+/// Where segment i of a path meets a triangle, if not along it. Hits of the same target get the same place to the bit,
+/// whatever the triangle.
+std::optional<Hit> hit_of(const StructuralModel& model, std::uint32_t triangle, const std::vector<Vec3>& path,
+                          std::uint32_t i, double start_m, double segment_m) {
+  const Triangle& v = model.triangles[triangle];
+  const Vec3 &p = path[i], &q = path[i + 1], &a = model.points[v[0]], &b = model.points[v[1]], &c = model.points[v[2]];
+  const int p_side = orientation_3d(a, b, c, p), q_side = orientation_3d(a, b, c, q);
+  if (p_side == q_side) return std::nullopt;
+  const std::array<int, 3> turn{orientation_3d(p, q, a, b), orientation_3d(p, q, b, c), orientation_3d(p, q, c, a)};
+  if (*std::min_element(turn.begin(), turn.end()) < 0 && *std::max_element(turn.begin(), turn.end()) > 0)
+    return std::nullopt;
+  const std::uint32_t surface = model.triangle_surface[triangle];
+  if (p_side == 0) return Hit{{surface, start_m, p}, {2 * i, 0, 0}};
+  if (q_side == 0) return Hit{{surface, start_m + segment_m, q}, {2 * i + 2, 0, 0}};
+
+  const Vec3 d = q - p;
+  const auto hit_at = [&](double share, std::uint32_t first, std::uint32_t second) {
+    share = std::clamp(share, 0.0, 1.0);
+    return Hit{{surface, start_m + share * segment_m, p + share * d}, {2 * i + 1, first, second}};
+  };
+  const auto on_edges = std::count(turn.begin(), turn.end(), 0);
+  if (on_edges == 0) {
+    const Vec3 n = cross(b - a, c - a);
+    const double to_p = dot(n, p - a), to_q = dot(n, q - a);
+    return hit_at(to_p == to_q ? 0.0 : to_p / (to_p - to_q), no_index, triangle);
+  }
+  if (on_edges == 1) {
+    const auto k = static_cast<std::size_t>(std::find(turn.begin(), turn.end(), 0) - turn.begin());
+    const auto [low, high] = std::minmax({v[k], v[(k + 1) % 3]});
+    const Vec3 e = model.points[high] - model.points[low], n = cross(d, e);
+    return hit_at(dot(cross(model.points[low] - p, e), n) / dot(n, n), low, high);
+  }
+  const std::uint32_t vertex = turn[0] != 0 ? v[2] : turn[1] != 0 ? v[0] : v[1];
+  return hit_at(dot(model.points[vertex] - p, d) / dot(d, d), vertex, vertex);
 }
 
 }  // namespace
@@ -64,37 +103,33 @@ std::uint32_t ModelQueries::region_at(const Vec3& p) const {
 }
 
 std::vector<PathCrossing> ModelQueries::crossings_along(const std::vector<Vec3>& path) const {
-  std::vector<PathCrossing> crossings;
+  std::vector<Hit> hits;
   double start_m = 0;
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) {
-    const Vec3 &p = path[i], &q = path[i + 1];
-    const double segment_m = length(q - p);
+  for (std::uint32_t i = 0; i + 1 < path.size(); ++i) {
+    const double segment_m = length(path[i + 1] - path[i]);
     Box3 box;
-    box.take(p);
-    box.take(q);
+    box.take(path[i]);
+    box.take(path[i + 1]);
     tree_.visit_items(enclosing(box), [&](std::uint32_t t) {
-      const Triangle& v = model_.triangles[t];
-      const Vec3 &a = model_.points[v[0]], &b = model_.points[v[1]], &c = model_.points[v[2]];
-      const int p_side = orientation_3d(a, b, c, p), q_side = orientation_3d(a, b, c, q);
-      if (p_side == q_side) return;
-      const int first = orientation_3d(p, q, a, b), second = orientation_3d(p, q, b, c), third = orientation_3d(p, q, c, a);
-      if (std::min({first, second, third}) < 0 && std::max({first, second, third}) > 0) return;
-      const Vec3 n = cross(b - a, c - a);
-      const double to_p = dot(n, p - a), to_q = dot(n, q - a);
-      // An end that lies on the plane exactly is the place: where two segments join, both then give the same one.
-      const double share = p_side == 0 || to_p == to_q ? 0.0 : q_side == 0 ? 1.0 : std::clamp(to_p / (to_p - to_q), 0.0, 1.0);
-      crossings.push_back({model_.triangle_surface[t], start_m + share * segment_m, p + share * (q - p)});
+      if (auto hit = hit_of(model_, t, path, i, start_m, segment_m)) hits.push_back(*hit);
     });
     start_m += segment_m;
   }
-  std::sort(crossings.begin(), crossings.end(), [](const PathCrossing& a, const PathCrossing& b) {
-    if (a.at_m != b.at_m) return a.at_m < b.at_m;
-    if (a.surface != b.surface) return a.surface < b.surface;
-    return lexicographically_less(a.point, b.point);
+  // A path through an edge or a vertex, or with a vertex of its own on a surface, meets every triangle there: one
+  // crossing of the surface. Which hits are the same is decided by what they hit, not by where the roundings put it.
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return std::tie(a.crossing.surface, a.target) < std::tie(b.crossing.surface, b.target);
   });
-  // A path through an edge or a vertex meets every triangle there: one crossing of the surface.
-  const auto same = [](const PathCrossing& a, const PathCrossing& b) { return a.surface == b.surface && a.at_m == b.at_m; };
-  crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
+  const auto same = [](const Hit& a, const Hit& b) {
+    return a.crossing.surface == b.crossing.surface && a.target == b.target;
+  };
+  hits.erase(std::unique(hits.begin(), hits.end(), same), hits.end());
+  std::sort(hits.begin(), hits.end(), [](const Hit& a, const Hit& b) {
+    return std::tie(a.crossing.at_m, a.crossing.surface, a.target) <
+           std::tie(b.crossing.at_m, b.crossing.surface, b.target);
+  });
+  std::vector<PathCrossing> crossings;
+  for (const Hit& hit : hits) crossings.push_back(hit.crossing);
   return crossings;
 }
 
@@ -102,7 +137,8 @@ std::vector<PathStretch> ModelQueries::regions_along(const std::vector<Vec3>& pa
   std::vector<double> stops{0.0};
   for (const PathCrossing& crossing : crossings_along(path)) stops.push_back(crossing.at_m);
   std::vector<double> vertex_at{0.0};
-  for (std::size_t i = 0; i + 1 < path.size(); ++i) vertex_at.push_back(vertex_at.back() + length(path[i + 1] - path[i]));
+  for (std::size_t i = 0; i + 1 < path.size(); ++i)
+    vertex_at.push_back(vertex_at.back() + length(path[i + 1] - path[i]));
   stops.push_back(vertex_at.back());
   const auto point_at = [&](double at_m) {
     const auto after = std::upper_bound(vertex_at.begin(), vertex_at.end(), at_m);

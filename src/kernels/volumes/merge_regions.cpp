@@ -2,9 +2,21 @@
 
 #include <array>
 
+#include "base/index_range.h"
+
 namespace strataflow {
 
-VolumeMesh merged_regions(const StructuralModel& model, FilledRegions filled) {
+Result<VolumeMesh> merged_regions(const StructuralModel& model, FilledRegions filled) {
+  std::uint64_t point_count = filled.surfaces.points.size(), tet_count = 0;
+  for (const RegionMesh& region : filled.meshes) {
+    point_count += region.interior_points.size();
+    tet_count += region.tets.size();
+  }
+  if (const Result<void> checked = check_index_range(point_count, "points", "the mesh of all regions"); !checked)
+    return checked.failure();
+  if (const Result<void> checked = check_index_range(4 * tet_count, "vertices of cells", "the mesh of all regions");
+      !checked)
+    return checked.failure();
   VolumeMesh mesh;
   mesh.local_origin = model.local_origin;
   mesh.entities = model.entities;

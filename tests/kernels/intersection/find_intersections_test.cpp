@@ -51,12 +51,75 @@ TEST(FindIntersections, equals_brute_force) {
   }
 }
 
+/// A sheet whose points are moved so far that it folds over itself: almost all pairs are neighbours.
+Cloud crumpled_sheet(std::uint64_t seed, std::uint32_t side, std::uint64_t reach) {
+  RandomStream random(seed);
+  Cloud cloud;
+  for (std::uint32_t i = 0; i <= side; ++i)
+    for (std::uint32_t j = 0; j <= side; ++j)
+      cloud.points.push_back({static_cast<double>(4 * i + random.below(reach)), static_cast<double>(4 * j + random.below(reach)),
+                              static_cast<double>(random.below(4)) / 2 + 1e-3 * (i * side + j)});
+  for (std::uint32_t i = 0; i < side; ++i)
+    for (std::uint32_t j = 0; j < side; ++j) {
+      const std::uint32_t a = i * (side + 1) + j, b = a + side + 1;
+      cloud.triangles.push_back({a, b, b + 1});
+      cloud.triangles.push_back(random.below(9) == 0 ? Triangle{a, a + 1, b + 1} : Triangle{a, b + 1, a + 1});
+    }
+  return cloud;
+}
+
+TEST(FindIntersections, equals_brute_force_on_sheets_that_fold) {
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const Cloud cloud = crumpled_sheet(seed, 12, 2 + seed % 8);
+    std::vector<IntersectingPair> expected;
+    for (std::uint32_t t = 0; t < cloud.triangles.size(); ++t)
+      for (std::uint32_t u = t + 1; u < cloud.triangles.size(); ++u) {
+        if (is_degenerate(cloud.points, cloud.triangles[t]) || is_degenerate(cloud.points, cloud.triangles[u])) continue;
+        const PairMeeting meeting = meeting_of(cloud.points, cloud.triangles[t], cloud.triangles[u]);
+        if (meeting != PairMeeting::proper) expected.push_back({t, u, meeting});
+      }
+    EXPECT_EQ(listed(find_intersections(cloud.points, cloud.triangles)), listed(expected)) << "seed " << seed;
+    if (seed % 8 != 1 && seed % 8 != 2) {
+      EXPECT_EQ(expected.empty(), seed % 8 == 0) << "seed " << seed;
+    }
+  }
+}
+
 TEST(FindIntersections, does_not_depend_on_the_schedule) {
   const Cloud cloud = tangled_cloud(99, 300, 900);
   const auto expected = listed(find_intersections(cloud.points, cloud.triangles));
   EXPECT_GT(expected.size(), 1000u);
   support::on_every_schedule(
       [&](const char* schedule) { EXPECT_EQ(listed(find_intersections(cloud.points, cloud.triangles)), expected) << schedule; });
+}
+
+TEST(FindIntersectionsOf, changed_triangles_finds_the_pairs_with_one_of_them) {
+  for (std::uint64_t seed = 0; seed < 30; ++seed) {
+    const Cloud cloud = tangled_cloud(seed, 60, 150);
+    RandomStream random(seed);
+    std::vector<char> is_changed(cloud.triangles.size());
+    for (char& changed : is_changed) changed = random.below(1 + seed % 10) == 0;
+    std::vector<IntersectingPair> expected = find_intersections(cloud.points, cloud.triangles);
+    std::erase_if(expected, [&](const IntersectingPair& p) { return !is_changed[p.first] && !is_changed[p.second]; });
+    EXPECT_EQ(listed(find_intersections_of(cloud.points, cloud.triangles, is_changed)), listed(expected)) << "seed " << seed;
+  }
+}
+
+TEST(FindIntersectionsOf, nothing_changed_finds_nothing) {
+  const Cloud cloud = tangled_cloud(1, 60, 150);
+  EXPECT_TRUE(find_intersections_of(cloud.points, cloud.triangles, std::vector<char>(cloud.triangles.size(), 0)).empty());
+  EXPECT_TRUE(find_intersections_of({}, {}, {}).empty());
+}
+
+TEST(FindIntersectionsOf, changed_triangles_does_not_depend_on_the_schedule) {
+  const Cloud cloud = tangled_cloud(98, 300, 900);
+  std::vector<char> is_changed(cloud.triangles.size());
+  for (std::size_t t = 0; t < is_changed.size(); ++t) is_changed[t] = t % 3 == 0;
+  const auto expected = listed(find_intersections_of(cloud.points, cloud.triangles, is_changed));
+  EXPECT_FALSE(expected.empty());
+  support::on_every_schedule([&](const char* schedule) {
+    EXPECT_EQ(listed(find_intersections_of(cloud.points, cloud.triangles, is_changed)), expected) << schedule;
+  });
 }
 
 TEST(FindIntersections, accepts_no_triangles) { EXPECT_TRUE(find_intersections({}, {}).empty()); }

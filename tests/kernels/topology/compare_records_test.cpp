@@ -20,14 +20,17 @@ std::size_t count_of(const std::vector<Violation>& violations, const char* kind)
 /// Two layers with three patches: upper walls and top, lower walls and bottom, the horizon.
 TriangleSoup two_named_layers() {
   TriangleSoup soup;
-  const std::uint32_t upper = support::add_patch(soup, "upper", Role::boundary), lower = support::add_patch(soup, "lower", Role::boundary),
+  const std::uint32_t upper = support::add_patch(soup, "upper", Role::boundary),
+                      lower = support::add_patch(soup, "lower", Role::boundary),
                       horizon = support::add_patch(soup, "H", Role::horizon);
   support::add_walls(soup, lower, {0, 0, 0}, {1, 1, 0.5});
   support::add_sheet(soup, lower, {0, 0, 0}, {1, 1, 0}, 0);
   support::add_walls(soup, upper, {0, 0, 0.5}, {1, 1, 1});
   support::add_sheet(soup, upper, {0, 0, 0}, {1, 1, 1}, 1);
   support::add_sheet(soup, horizon, {0, 0, 0}, {1, 1, 1}, 0.5);
-  soup.regions = {{"Universe", {side(0, false), side(1, false)}}, {"Top", {side(0, true), side(2, true)}}, {"Base", {side(1, true), side(2, false)}}};
+  soup.regions = {{"Universe", {side(0, false), side(1, false)}},
+                  {"Top", {side(0, true), side(2, true)}},
+                  {"Base", {side(1, true), side(2, false)}}};
   soup.layers = {{"young", {1}}, {"old", {2}}};
   return soup;
 }
@@ -38,7 +41,8 @@ TEST(CompareRecords, regions_take_the_names_of_the_records_that_fit_best_whateve
     for (PatchSide& s : record.sides) s.is_positive ^= 1;
   const StructuralModel model = build_structural_model(soup)->model;
   ASSERT_EQ(model.regions.size(), 2u);
-  const std::uint32_t top = model.surfaces[0].region_plus == universe ? model.surfaces[0].region_minus : model.surfaces[0].region_plus;
+  const std::uint32_t top =
+      model.surfaces[0].region_plus == universe ? model.surfaces[0].region_minus : model.surfaces[0].region_plus;
   const std::string expected = model.entities[model.surfaces[0].entity].name == "upper" ? "Top" : "Base";
   EXPECT_EQ(model.regions[top].name, expected);
   ASSERT_EQ(model.layers.size(), 2u);
@@ -72,7 +76,8 @@ TEST(CompareRecords, a_border_along_a_line_is_fine) {
 
 TEST(CompareRecords, a_border_between_copies_that_no_triangle_joins_is_inconsistent) {
   TriangleSoup soup = two_named_layers();
-  const auto start = static_cast<std::uint32_t>(std::find(soup.points.begin(), soup.points.end(), Vec3{0, 0, .5}) - soup.points.begin());
+  const auto start = static_cast<std::uint32_t>(std::find(soup.points.begin(), soup.points.end(), Vec3{0, 0, .5}) -
+                                                soup.points.begin());
   soup.points.push_back({1, 0, .5});
   soup.border_starts = {{start, static_cast<std::uint32_t>(soup.points.size() - 1)}};
   EXPECT_EQ(count_of(build_structural_model(soup)->violations, "inconsistent_border"), 1u);

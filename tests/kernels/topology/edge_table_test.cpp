@@ -19,7 +19,8 @@ TEST(EdgeTable, lists_every_edge_once_with_its_half_edges) {
   EXPECT_EQ(table.edge_count(), 8u);
   const std::uint32_t shared = find_edge(table, 1, 0);
   ASSERT_NE(shared, no_index);
-  EXPECT_EQ(std::vector<std::uint32_t>(table.around(shared).begin(), table.around(shared).end()), (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(std::vector<std::uint32_t>(table.around(shared).begin(), table.around(shared).end()),
+            (std::vector<std::uint32_t>{0, 3}));
   EXPECT_EQ(table.edge_of[0], shared);
   EXPECT_EQ(find_edge(table, 2, 3), no_index);
 }

@@ -8,7 +8,6 @@
 #include "base/seed.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/topology/build_regions.h"
-#include "kernels/topology/shell_containment.h"
 
 namespace strataflow {
 namespace {
@@ -42,7 +41,8 @@ TEST(RadialOrder, goes_round_by_angle_from_the_first) {
     ASSERT_FALSE(order.is_ambiguous);
     std::vector<std::uint32_t> expected = wheel.half_edges;
     const auto turn = [&](std::uint32_t h) { return std::fmod(angles[h / 3] - angles[0] + 4 * M_PI, 2 * M_PI); };
-    std::sort(expected.begin() + 1, expected.end(), [&](std::uint32_t a, std::uint32_t b) { return turn(a) < turn(b); });
+    std::sort(expected.begin() + 1, expected.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return turn(a) < turn(b); });
     EXPECT_EQ(order.half_edges, expected);
   }
 }
@@ -79,15 +79,6 @@ TEST(ExactPredicates, signs_are_right_where_rounding_decides_nothing) {
   EXPECT_NE(orientation_3d({0, 0, 0}, {1, 1, 0}, {0, 0, 1}, {x, std::nextafter(x, 1.0), 0.7}), 0);
   EXPECT_EQ(orientation_2d(0, 0, 3, 3, std::nextafter(1.0, 2.0), 1), -1);
   EXPECT_EQ(projection_axis({0, 0, 0}, {1, 1, 1}, {2, 2, 2}), -1);
-}
-
-TEST(ShellContainment, a_ray_through_a_shared_edge_crosses_one_of_the_two_triangles) {
-  const Vec3 a{0, 0, 1}, b{1, 1, 1}, c{1, 0, 1}, d{0, 1, 1}, below{.5, .5, 0};
-  const int crossings = (meeting_of_upward_ray(below, a, c, b) == RayMeeting::crosses) +
-                        (meeting_of_upward_ray(below, a, b, d) == RayMeeting::crosses);
-  EXPECT_EQ(crossings, 1);
-  EXPECT_EQ(meeting_of_upward_ray({.5, .5, 1}, a, c, b), RayMeeting::starts_on);
-  EXPECT_EQ(meeting_of_upward_ray({.6, .5, 2}, a, c, b), RayMeeting::misses);
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "io/local_origin.h"
+#include "io/input/local_origin.h"
 #include "io/read_input.h"
 #include "kernels/volumes/filled_model.h"
 

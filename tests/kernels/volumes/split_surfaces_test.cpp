@@ -69,7 +69,7 @@ TEST_F(SplitSurfaces, neighbours_take_the_points_that_one_region_puts_on_the_com
     EXPECT_GT(inserted, 4u);
     for (std::uint32_t s = 0; s < model.surfaces.size(); ++s)
       EXPECT_NEAR(area_of(filled->surfaces, s), area_of(surface_triangles_of(model), s), 1e-12);
-    const VolumeMesh mesh = merged_regions(model, std::move(*filled));
+    const VolumeMesh mesh = *merged_regions(model, std::move(*filled));
     support::expect_valid(mesh, model);
     support::expect_model_points_kept(mesh, model);
     ASSERT_EQ(mesh.changes.size(), inserted + 1);
@@ -83,7 +83,7 @@ TEST_F(SplitSurfaces, a_dangling_fault_may_be_split_too) {
   const StructuralModel model = support::model_of(support::box_with_floating_fault());
   Result<FilledRegions> filled = fill_regions(model, {}, plan(), worker_that_fails_on_call(1), nullptr);
   ASSERT_TRUE(filled) << describe(filled.failure());
-  const VolumeMesh mesh = merged_regions(model, std::move(*filled));
+  const VolumeMesh mesh = *merged_regions(model, std::move(*filled));
   support::expect_valid(mesh, model);
   EXPECT_GT(mesh.facets.size(), model.triangles.size());
 }

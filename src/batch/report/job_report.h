@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/digest.h"
+#include "base/warning.h"
+#include "batch/job_file/job.h"
+#include "graph/run_graph.h"
+#include "kernels/quality/analyze_volume_mesh.h"
+#include "model/built_model.h"
+#include "model/cut_result.h"
+#include "model/volume_mesh.h"
+#include "stages/draw_stage.h"
+
+namespace strataflow {
+
+/// What became of one stage of a job. Times stand apart: they are never the same twice.
+struct StageRecord {
+  std::string node;
+  std::string stage;
+  int version = 0;
+  NodeOutcome outcome;
+  NodeTiming timing;
+};
+
+/// Everything there is to say about a job that ran: what the writers of the run folder work from.
+struct JobReport {
+  const Job* job = nullptr;
+  std::vector<StageRecord> stages;
+  std::optional<Failure> error;  ///< of the first stage that failed
+  std::shared_ptr<const CutResult> sealed;
+  std::shared_ptr<const BuiltModel> model;
+  std::shared_ptr<const ValidityReport> validity;
+  std::shared_ptr<const Pictures> model_pictures;
+  std::shared_ptr<const VolumeMesh> tets;
+  std::shared_ptr<const VolumeQualityReport> tets_quality;
+  std::shared_ptr<const Pictures> tets_pictures;
+};
+
+}  // namespace strataflow

@@ -1,0 +1,263 @@
+#include "batch/report/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "batch/program_version.h"
+#include "kernels/topology/check_validity.h"
+#include "stages/all_stages.h"
+
+namespace strataflow {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string written(const Json& json) {
+  // Names come from files and may be any bytes; JSON is UTF-8.
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Json json_of(const std::optional<Failure>& failure) {
+  if (!failure) return nullptr;
+  return {{"code", to_string(failure->code)}, {"what", failure->what}, {"remedy", failure->remedy}};
+}
+
+Json json_of(const std::vector<Warning>& warnings) {
+  Json list = Json::array();
+  for (const Warning& warning : warnings) list.push_back({{"kind", warning.kind}, {"what", warning.what}});
+  return list;
+}
+
+Json json_of(const std::vector<Change>& changes) {
+  Json list = Json::array();
+  for (const Change& change : changes)
+    list.push_back({{"kind", change.kind}, {"what", change.what}, {"why", change.why}});
+  return list;
+}
+
+Json json_of(const std::vector<Distribution>& distributions) {
+  Json list = Json::array();
+  for (const Distribution& one : distributions)
+    list.push_back({{"name", one.name},
+                    {"count", one.count},
+                    {"minimum", one.minimum},
+                    {"maximum", one.maximum},
+                    {"mean", one.mean()},
+                    {"low", one.low},
+                    {"high", one.high},
+                    {"bins", one.bins}});
+  return list;
+}
+
+Json json_of(const std::vector<RegionQuality>& regions) {
+  Json list = Json::array();
+  for (const RegionQuality& region : regions)
+    list.push_back(
+        {{"region", region.region}, {"name", region.name}, {"cells", region.cells}, {"volume_m3", region.volume_m3}});
+  return list;
+}
+
+double area_m2(const StructuralModel& model) {
+  double sum = 0;
+  for (const Triangle& t : model.triangles) {
+    const Vec3& a = model.points[t[0]];
+    sum += 0.5 * length(cross(model.points[t[1]] - a, model.points[t[2]] - a));
+  }
+  return sum;
+}
+
+Json entities_json(const StructuralModel& model) {
+  std::vector<std::uint64_t> surfaces(model.entities.size(), 0);
+  for (const Surface& surface : model.surfaces)
+    for (const std::uint32_t entity : surface.all_entities) ++surfaces[entity];
+  Json list = Json::array();
+  for (std::size_t i = 0; i < model.entities.size(); ++i)
+    list.push_back({{"id", i},
+                    {"name", model.entities[i].name},
+                    {"role", to_string(model.entities[i].role)},
+                    {"surfaces", surfaces[i]}});
+  return list;
+}
+
+/// Surfaces where several entities coincide: the mesh files name only the youngest.
+Json coincident_json(const StructuralModel& model) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < model.surfaces.size(); ++i)
+    if (const Surface& surface = model.surfaces[i]; surface.all_entities.size() > 1)
+      list.push_back({{"surface", i}, {"entity", surface.entity}, {"entities", surface.all_entities}});
+  return list;
+}
+
+Json violations_json(const Vec3& origin, const std::vector<Violation>& violations) {
+  Json list = Json::array();
+  for (const Violation& violation : violations) {
+    const Vec3 where = violation.where + origin;
+    list.push_back({{"kind", violation.kind},
+                    {"severity", violation.severity == Violation::Severity::error ? "error" : "warning"},
+                    {"what", violation.what},
+                    {"remedy", violation.remedy},
+                    {"where_m", {where.x, where.y, where.z}},
+                    {"count", violation.count}});
+  }
+  return list;
+}
+
+Json model_block(const BuiltModel& built, const ValidityReport& validity) {
+  const StructuralModel& model = built.model;
+  Json regions = Json::array();
+  Json volumes = Json::array();
+  for (std::size_t i = 0; i < model.regions.size(); ++i) {
+    regions.push_back({{"id", i}, {"name", model.regions[i].name}, {"volume_m3", model.regions[i].volume_m3}});
+    volumes.push_back(model.regions[i].volume_m3);
+  }
+  Json layers = Json::array();
+  for (const Layer& layer : model.layers) layers.push_back({{"name", layer.name}, {"regions", layer.regions}});
+  return {{"corners", model.corners.size()},
+          {"lines", model.lines.size()},
+          {"surfaces", model.surfaces.size()},
+          {"regions", model.regions.size()},
+          {"vertices", model.points.size()},
+          {"triangles", model.triangles.size()},
+          {"sealed", is_sealed(model, validity)},
+          {"bbox_diagonal_m", model.box.diagonal_m()},
+          {"area_m2", area_m2(model)},
+          {"regions_list", regions},
+          {"volumes_m3", volumes},
+          {"layers", layers},
+          {"entities", entities_json(model)},
+          {"coincident_surfaces", coincident_json(model)},
+          {"intersecting_triangle_pairs", validity.intersecting_triangle_pairs},
+          {"self_intersecting_pairs", validity.self_intersecting_pairs},
+          {"violations", violations_json(model.local_origin, validity.violations)}};
+}
+
+Json cut_block(const CutResult& result) {
+  const CutReport& cut = result.report;
+  return {{"intersecting_triangle_pairs", cut.intersecting_pairs},
+          {"cut_triangles", cut.cut_triangles},
+          {"pieces", cut.pieces},
+          {"new_points", cut.new_points},
+          {"merged_points", cut.merged_points},
+          {"largest_move_m", cut.largest_move_m},
+          {"dropped_triangles", cut.dropped_triangles},
+          {"rounds", cut.rounds},
+          {"pairs_left", cut.pairs_left},
+          {"changes", json_of(result.changes)}};
+}
+
+Json tets_block(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
+  return {{"vertices", quality.vertices},
+          {"cells", quality.cells},
+          {"per_region", json_of(quality.per_region)},
+          {"volume_m3", quality.volume_m3},
+          {"min_dihedral_deg", quality.min_dihedral_deg},
+          {"max_dihedral_deg", quality.max_dihedral_deg},
+          {"inverted", quality.inverted},
+          {"nonconforming_faces", quality.nonconforming_faces},
+          {"facets", mesh.facets.size()},
+          {"histograms", json_of(quality.distributions)},
+          {"changes", json_of(mesh.changes)}};
+}
+
+}  // namespace
+
+std::string report_json(const JobReport& report) {
+  Json stages = Json::array();
+  for (const StageRecord& record : report.stages)
+    stages.push_back({{"id", stages.size()},
+                      {"node", record.node},
+                      {"stage", record.stage},
+                      {"version", record.version},
+                      {"status", to_string(record.outcome.status)},
+                      {"digest", record.outcome.digest ? Json(record.outcome.digest->hex()) : Json(nullptr)},
+                      {"warnings", json_of(record.outcome.warnings)}});
+  Json json = {{"format", 1},
+               {"program", "strataflow " + program_version()},
+               {"job", report.job->header.name},
+               {"status", report.error ? "failed" : "ok"},
+               {"error", json_of(report.error)},
+               {"stages", stages}};
+  if (report.sealed) json["cut"] = cut_block(*report.sealed);
+  if (report.model && report.validity) json["model"] = model_block(*report.model, *report.validity);
+  if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
+  return written(json);
+}
+
+std::string timing_json(const JobReport& report, int threads, double total_s, double peak_memory_mb) {
+  Json stages = Json::array();
+  for (const StageRecord& record : report.stages)
+    stages.push_back({{"node", record.node},
+                      {"start_s", record.timing.start_s},
+                      {"seconds", record.timing.seconds},
+                      {"cached", record.timing.is_cached}});
+  return written({{"threads", threads}, {"total_s", total_s}, {"peak_memory_mb", peak_memory_mb}, {"stages", stages}});
+}
+
+std::string model_json(const BuiltModel& built, const ValidityReport& validity) {
+  return written(model_block(built, validity));
+}
+
+std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality) {
+  return written({{"file", file},
+                  {"vertices", quality.vertices},
+                  {"cells",
+                   {{"total", quality.cells},
+                    {"tetrahedra", quality.tetrahedra},
+                    {"pyramids", quality.pyramids},
+                    {"prisms", quality.prisms},
+                    {"hexahedra", quality.hexahedra}}},
+                  {"volume_m3", quality.volume_m3},
+                  {"per_region", json_of(quality.per_region)},
+                  {"inverted", quality.inverted},
+                  {"nonconforming_faces", quality.nonconforming_faces},
+                  {"open_boundary_edges", quality.open_boundary_edges},
+                  {"faces_with_hanging_vertex", quality.faces_with_hanging_vertex},
+                  {"coincident_boundary_vertices", quality.coincident_boundary_vertices},
+                  {"inner_faces", quality.inner_faces},
+                  {"boundary_faces", quality.boundary_faces},
+                  {"min_dihedral_deg", quality.min_dihedral_deg},
+                  {"max_dihedral_deg", quality.max_dihedral_deg},
+                  {"min_scaled_jacobian", quality.min_scaled_jacobian},
+                  {"mean_scaled_jacobian", quality.mean_scaled_jacobian},
+                  {"valid", quality.is_valid()},
+                  {"histograms", json_of(quality.distributions)}});
+}
+
+std::string triangle_quality_json(const std::string& file, const TriangleQualityReport& quality) {
+  return written({{"file", file},
+                  {"cells", {{"triangles", quality.triangles}}},
+                  {"degenerate", quality.degenerate},
+                  {"inverted", 0},
+                  {"nonconforming_faces", 0},
+                  {"area_m2", quality.area_m2},
+                  {"min_angle_deg", quality.min_angle_deg},
+                  {"angles_below_30_ratio", quality.angles_below_30_ratio},
+                  {"mean_quality", quality.mean_quality},
+                  {"valid", quality.degenerate == 0},
+                  {"histograms", json_of(std::vector{quality.angle_deg, quality.quality, quality.radius_ratio})}});
+}
+
+std::string stages_json() {
+  Json list = Json::array();
+  for (const StageDescription& stage : all_stages()) {
+    Json options = Json::array();
+    for (const OptionDescription& option : stage.options)
+      options.push_back({{"name", option.name},
+                         {"type", option.type},
+                         {"unit", option.unit},
+                         {"default", option.default_value.empty() ? Json(nullptr) : Json(option.default_value)},
+                         {"domain", option.domain},
+                         {"description", option.description}});
+    list.push_back({{"stage", stage.name},
+                    {"summary", stage.summary},
+                    {"inputs", stage.inputs},
+                    {"output", stage.output},
+                    {"version", stage.version},
+                    {"uses_seed", stage.uses_seed},
+                    {"section", stage.section},
+                    {"options", options}});
+  }
+  return written(list);
+}
+
+}  // namespace strataflow

@@ -1,0 +1,146 @@
+#include "batch/run/run_batch.h"
+
+#include <sched.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <map>
+
+#include "batch/build_graph.h"
+#include "batch/options/closest_word.h"
+#include "batch/report/job_report.h"
+#include "batch/run/run_files.h"
+#include "batch/run/run_folder.h"
+#include "stages/all_stages.h"
+
+namespace strataflow {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<fs::path> run_folders(const std::vector<Job>& jobs, const std::optional<fs::path>& out) {
+  std::vector<fs::path> folders;
+  for (const Job& job : jobs) {
+    fs::path folder = !out ? job.folder / "out" / job.header.name : jobs.size() == 1 ? *out : *out / job.header.name;
+    folder = fs::absolute(folder).lexically_normal();
+    if (!folder.has_filename()) folder = folder.parent_path();  // a trailing slash
+    folders.push_back(folder);
+  }
+  return folders;
+}
+
+Result<void> check_folders(const std::vector<Job>& jobs, const std::vector<fs::path>& folders) {
+  std::map<fs::path, std::size_t> seen;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (const auto [other, is_new] = seen.try_emplace(folders[i], i); !is_new)
+      return Failure{
+          FailureCode::invalid_usage,
+          jobs[other->second].file_name + " and " + jobs[i].file_name + " would both write " + folders[i].string(),
+          "give them different names: job.name"};
+    if (const Result<void> checked = check_run_folder(folders[i]); !checked) return checked.failure();
+    for (const JobInput& input : jobs[i].inputs)
+      if (input.file && is_run_file(fs::path(*input.file).filename().string()) &&
+          jobs[i].input_path(input).parent_path() == folders[i])
+        return Failure{FailureCode::invalid_usage,
+                       input.origin + ": the input lies in the run folder it would be replaced in",
+                       "choose another --out"};
+  }
+  return {};
+}
+
+Result<void> check_stop(const StageGraph& graph, const std::string& stage) {
+  if (stage.empty() || graph.has_stage(stage)) return {};
+  std::vector<std::string> names;
+  for (const StageNode& node : graph.nodes())
+    if (std::find(names.begin(), names.end(), node.stage) == names.end()) names.push_back(node.stage);
+  return Failure{FailureCode::invalid_usage, "--stop-after " + stage + ": no job of this run has that stage",
+                 suggestion(stage, {names.begin(), names.end()})};
+}
+
+JobReport report_of(const Job& job, const WiredJob& wired, const StageGraph& graph, const RunOutcome& outcome) {
+  JobReport report;
+  report.job = &job;
+  std::optional<Failure> upstream;
+  for (const auto& [name, id] : wired.nodes) {
+    const StageNode& node = graph.node(id);
+    report.stages.push_back({name, node.stage, node.version, outcome[id], outcome.timings[id.value]});
+    const std::optional<Failure>& failure = outcome[id].failure;
+    if (!failure) continue;
+    if (failure->code == FailureCode::upstream_failed || failure->code == FailureCode::cancelled)
+      upstream = upstream ? upstream : failure;
+    else if (!report.error)
+      report.error = Failure{failure->code, name + ": " + failure->what, failure->remedy};
+  }
+  if (!report.error) report.error = upstream;
+  const auto output = [&](const auto& port) {
+    using Data = std::decay_t<decltype(*outcome.output(*port))>;
+    return port ? outcome.output(*port) : std::shared_ptr<const Data>();
+  };
+  report.model = output(wired.model);
+  report.sealed = output(wired.sealed);
+  report.validity = output(wired.validity);
+  report.model_pictures = output(wired.model_pictures);
+  report.tets = output(wired.tets);
+  report.tets_quality = output(wired.tets_quality);
+  report.tets_pictures = output(wired.tets_pictures);
+  return report;
+}
+
+int thread_count(const RunOptions& run) {
+  if (run.executor != ExecutorKind::tbb) return 1;
+  if (run.threads > 0) return run.threads;
+  cpu_set_t cores;  // those this process may use
+  return ::sched_getaffinity(0, sizeof cores, &cores) == 0 ? CPU_COUNT(&cores) : 1;
+}
+
+}  // namespace
+
+double peak_memory_mb() {
+  rusage own{}, children{};
+  ::getrusage(RUSAGE_SELF, &own);
+  ::getrusage(RUSAGE_CHILDREN, &children);
+  return 1024e-6 * static_cast<double>(own.ru_maxrss + children.ru_maxrss);  // the kernel counts in KiB
+}
+
+Result<std::vector<JobOutcome>> run_batch(const std::vector<Job>& jobs, const BatchOptions& options) {
+  const std::vector<fs::path> folders = run_folders(jobs, options.out);
+  if (const Result<void> checked = check_folders(jobs, folders); !checked) return checked.failure();
+  StageGraph graph;
+  const std::vector<WiredJob> wired = build_graph(graph, jobs);
+  RunOptions run = options.run;
+  if (const Result<void> checked = check_stop(graph, run.stop_after); !checked) return checked.failure();
+  for (const WiredJob& job : wired)
+    for (const NodeId id : job.wanted()) run.wanted.push_back(id);
+
+  const RunOutcome outcome = run_graph(graph, run);
+
+  std::vector<JobOutcome> results;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const JobReport report = report_of(jobs[i], wired[i], graph, outcome);
+    JobOutcome& result = results.emplace_back();
+    result.name = jobs[i].header.name;
+    result.run_folder = folders[i];
+    result.failure = report.error;
+    for (const StageRecord& record : report.stages) {
+      for (const Warning& warning : record.outcome.warnings)
+        result.warnings.push_back(record.node + ": " + warning.kind + ": " + warning.what);
+      if (!record.timing.not_stored.empty())
+        result.warnings.push_back(record.node + ": not_stored: " + record.timing.not_stored);
+    }
+    const auto is_cancelled = [&] { return run.cancellation && run.cancellation->is_cancelled(); };
+    const Failure cancelled{FailureCode::cancelled, "cancelled",
+                            "run it again: finished stages are taken from the store"};
+    if (!result.failure && is_cancelled()) result.failure = cancelled;
+    if (result.failure) continue;
+    const std::vector<RunFile> files =
+        run_files(report, {thread_count(run), outcome.total_s, peak_memory_mb(), folders[i]});
+    if (is_cancelled())
+      result.failure = cancelled;
+    else if (const Result<void> written = replace_run_folder(folders[i], files); !written)
+      result.failure = written.failure();
+  }
+  return results;
+}
+
+}  // namespace strataflow

@@ -1,0 +1,83 @@
+#include "batch/run/run_files.h"
+
+#include <array>
+#include <cstdio>
+
+#include "base/log.h"
+#include "batch/job_file/resolved_job.h"
+#include "batch/program_version.h"
+#include "batch/report/report_html.h"
+#include "batch/report/report_json.h"
+#include "io/gocad/write_gocad.h"
+#include "io/input/labelled_triangles.h"
+#include "io/mesh/write_abaqus.h"
+#include "io/mesh/write_gmsh.h"
+#include "io/mesh/write_medit.h"
+#include "io/surface/write_obj.h"
+#include "io/vtk/write_vtk_xml.h"
+
+namespace strataflow {
+
+namespace {
+
+std::vector<std::byte> bytes_of(const std::string& text) {
+  const auto* first = reinterpret_cast<const std::byte*>(text.data());
+  return {first, first + text.size()};
+}
+
+std::string fixed(double number, int digits) {
+  std::array<char, 64> text;
+  return {text.data(), static_cast<std::size_t>(std::snprintf(text.data(), text.size(), "%.*f", digits, number))};
+}
+
+std::string log_text(const JobReport& report, const RunFacts& facts) {
+  RunLog log;
+  log.line(LogLevel::info, "strataflow " + program_version() + ", job " + report.job->header.name + ", " +
+                               std::to_string(facts.threads) + " threads, " + fixed(facts.total_s, 3) + " s");
+  for (const StageRecord& record : report.stages) {
+    std::string text = fixed(record.timing.start_s, 3) + " s  " + record.node + " (" + record.stage + " " +
+                       std::to_string(record.version) + "): " + std::string(to_string(record.outcome.status));
+    if (record.outcome.digest) text += ", " + record.outcome.digest->hex();
+    text += record.timing.is_cached ? ", from the store" : ", " + fixed(record.timing.seconds, 3) + " s";
+    log.line(LogLevel::info, text);
+    for (const Warning& warning : record.outcome.warnings)
+      log.line(LogLevel::warning, warning.kind + ": " + warning.what);
+    if (!record.timing.not_stored.empty()) log.line(LogLevel::warning, "not_stored: " + record.timing.not_stored);
+  }
+  return log.text();
+}
+
+}  // namespace
+
+std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
+  std::vector<RunFile> files;
+  const auto add = [&](const std::string& name, const std::string& text) { files.push_back({name, bytes_of(text)}); };
+  const Job& job = *report.job;
+  add("report.json", report_json(report));
+  add("timing.json", timing_json(report, facts.threads, facts.total_s, facts.peak_memory_mb));
+  add("report.html", report_html(report));
+  add("job.toml", resolved_job_text(job, facts.run_folder));
+  add("log.txt", log_text(report, facts));
+  if (report.model && job.makes("model")) {
+    const StructuralModel& model = report.model->model;
+    const LabelledTriangles triangles = labelled_triangles(model);
+    add("model.vtp", write_vtp(triangles));
+    if (job.writes("gocad")) add("model.ml", write_gocad_ml(model, job.header.name));
+    if (job.writes("medit")) add("model.mesh", write_medit(triangles));
+    if (job.writes("gmsh")) add("model.msh", write_gmsh(triangles));
+    if (job.writes("obj")) add("model.obj", write_obj(triangles));
+    if (job.writes("abaqus")) add("model.inp", write_abaqus(triangles));
+  }
+  if (report.tets && report.tets_quality && job.makes("tets")) {
+    add("tets.vtu", write_vtu(*report.tets));
+    add("tets_facets.vtp", write_facets_vtp(*report.tets));
+    if (job.writes("gocad"))
+      if (const Result<std::string> solid = write_gocad_so(*report.tets, job.header.name)) add("tets.so", *solid);
+    if (job.writes("medit")) add("tets.mesh", write_medit(*report.tets));
+    if (job.writes("gmsh")) add("tets.msh", write_gmsh(*report.tets));
+    if (job.writes("abaqus")) add("tets.inp", write_abaqus(*report.tets));
+  }
+  return files;
+}
+
+}  // namespace strataflow

@@ -1,0 +1,22 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "batch/report/job_report.h"
+#include "batch/run/run_folder.h"
+
+namespace strataflow {
+
+/// Facts about the whole run that no report.json may hold.
+struct RunFacts {
+  int threads = 1;
+  double total_s = 0;
+  double peak_memory_mb = 0;
+  std::filesystem::path run_folder;
+};
+
+/// Every file of a job's run folder (interface.md §3): reports, the resolved job, the log, and the products in all
+/// formats the job asks for.
+std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts);
+
+}  // namespace strataflow

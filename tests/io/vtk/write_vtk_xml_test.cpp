@@ -1,0 +1,60 @@
+#include "io/vtk/write_vtk_xml.h"
+
+#include "io/mesh_samples.h"
+#include "io/vtk/read_vtk_xml.h"
+
+namespace strataflow {
+namespace {
+using namespace support;
+
+TEST(WriteVtkXml, surfaces_come_back_bit_for_bit) {
+  const TriangleSoup soup = two_surface_soup();
+  const InputData again = read_whole(read_vtk_xml, write_vtp(labelled_triangles(soup)), "a.vtp");
+  EXPECT_EQ(archived(again.surfaces), archived(in_world_coordinates(soup)));
+}
+
+TEST(WriteVtkXml, volumes_come_back_bit_for_bit) {
+  VolumeMesh mesh = two_region_mesh();
+  mesh.cell_entity = {0, 1, 0, 0, 1};
+  VolumeMesh again = read_whole(read_vtk_xml, write_vtu(mesh), "a.vtu").volume;
+  for (Vec3& point : mesh.points) point = point + mesh.local_origin;
+  mesh.local_origin = {};
+  mesh.facets.clear();
+  mesh.surface_entity.clear();
+  for (Entity& entity : mesh.entities) entity.role = Role::unknown;  // a .vtu names entities, not their roles
+  EXPECT_EQ(archived(again), archived(mesh));
+}
+
+TEST(WriteVtkXml, facets_are_polygons_with_the_points_of_the_mesh) {
+  const VolumeMesh mesh = two_region_mesh();
+  const std::string bytes = write_facets_vtp(mesh);
+  const InputData again = read_whole(read_vtk_xml, bytes, "a.vtp");
+  EXPECT_EQ(again.surfaces.points.size(), mesh.points.size());
+  EXPECT_EQ(again.surfaces.triangles.size(), 4u) << "two triangles and a quad";
+  EXPECT_EQ(again.surfaces.entities.at(1).name, "Top \xc3\xa9");
+  EXPECT_EQ(again.surfaces.entities.at(1).role, Role::horizon);
+  for (const char* name : {"\"cell_0\"", "\"cell_1\"", "\"line\"", "\"corner\""})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+}
+
+TEST(WriteVtkXml, the_same_content_gives_the_same_bytes) {
+  EXPECT_EQ(write_vtu(two_region_mesh()), write_vtu(two_region_mesh()));
+  const TriangleSoup soup = two_surface_soup();
+  EXPECT_EQ(write_vtp(labelled_triangles(soup)), write_vtp(labelled_triangles(soup)));
+}
+
+TEST(WriteVtkXml, an_empty_mesh_is_a_whole_file) {
+  const std::string bytes = write_vtu(VolumeMesh{});
+  EXPECT_NE(bytes.find("NumberOfCells=\"0\""), std::string::npos);
+  EXPECT_EQ(bytes.substr(bytes.size() - 11), "</VTKFile>\n");
+}
+
+TEST(WriteVtkXml, a_property_name_that_xml_cannot_hold_is_replaced) {
+  TriangleSoup soup = two_surface_soup();
+  soup.properties[0].name = "a<b>&\"\xff\x01";
+  const InputData again = read_whole(read_vtk_xml, write_vtp(labelled_triangles(soup)), "a.vtp");
+  EXPECT_EQ(again.surfaces.properties.at(0).name, "a<b>&\"__");
+}
+
+}  // namespace
+}  // namespace strataflow
