@@ -208,7 +208,7 @@ std::string difference(const Original& original, const ModelFacts& facts, double
   for (const auto& [name, area_m2] : wanted.dangling_m2)
     if (const auto is = facts.dangling_m2.find(name); is == facts.dangling_m2.end())
       text += "; " + name + " dies nowhere";
-    else if (!(is->second >= 0.5 * area_m2))
+    else if (!(is->second >= 0.9 * area_m2))
       text += "; " + name + " dies on " + OptionPrinter::literal(is->second) + " m2 instead of " +
               OptionPrinter::literal(area_m2);
   for (const auto& [name, area_m2] : facts.dangling_m2)
