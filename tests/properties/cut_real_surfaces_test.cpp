@@ -2,6 +2,7 @@
 #include "kernels/cutting/cut_surfaces.h"
 #include "kernels/quality/check_mesh_against_model.h"
 #include "kernels/volumes/tetrahedralize_model.h"
+#include "properties/entity_names.h"
 #include "properties/read_model.h"
 
 namespace strataflow {
@@ -28,20 +29,6 @@ InputData read_raw(const RawSurfaces& raw) {
   return input ? *std::move(input) : InputData{};
 }
 
-std::set<std::string> names_of(const std::vector<Entity>& entities) {
-  std::set<std::string> names;
-  for (const Entity& entity : entities) names.insert(entity.name);
-  return names;
-}
-
-/// Names of the entities that still own a surface, alone or with others.
-std::set<std::string> names_on_surfaces(const StructuralModel& model) {
-  std::set<std::string> names;
-  for (const Surface& surface : model.surfaces)
-    for (const std::uint32_t entity : surface.all_entities) names.insert(model.entities[entity].name);
-  return names;
-}
-
 class RealSurfaces : public testing::TestWithParam<RawSurfaces> {
  protected:
   void SetUp() override {
@@ -49,7 +36,7 @@ class RealSurfaces : public testing::TestWithParam<RawSurfaces> {
     if (!std::filesystem::exists(path))
       GTEST_SKIP() << path << " is not there: set STRATAFLOW_DATA to the folder of the real models";
     surfaces_ = read_raw(GetParam()).surfaces;
-    ASSERT_EQ(names_of(surfaces_.entities).size(), GetParam().entities);
+    ASSERT_EQ(support::names_of(surfaces_.entities).size(), GetParam().entities);
   }
   TriangleSoup surfaces_;
 };
@@ -62,7 +49,7 @@ TEST_P(RealSurfaces, conform_and_keep_their_names_when_cut) {
   const CheckedModel checked = support::checked(cut->soup);
   EXPECT_EQ(checked.validity.intersecting_triangle_pairs, 0u);
   EXPECT_FALSE(support::errors_of(checked).contains("non_conforming_contact"));
-  EXPECT_EQ(names_on_surfaces(checked.built.model), names_of(surfaces_.entities));
+  EXPECT_EQ(support::names_on_surfaces(checked.built.model), support::names_of(surfaces_.entities));
 }
 
 constexpr RawSurfaces fracture_networks[] = {{"dfn1", "dfn/dfn1_ascii.vtp", 1, 232},

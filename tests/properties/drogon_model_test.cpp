@@ -5,6 +5,7 @@
 
 #include "kernels/cutting/cut_surfaces.h"
 #include "kernels/sealing/trim_outside.h"
+#include "properties/entity_names.h"
 #include "properties/read_model.h"
 
 namespace strataflow {
@@ -105,20 +106,6 @@ void add_box_over(TriangleSoup& soup, std::span<const Triangle> sheet, double to
       add_triangle(2, {bottom[0], bottom[1], top[1]});
       add_triangle(2, {bottom[0], top[1], top[0]});
     }
-}
-
-std::set<std::string> names_of(const std::vector<Entity>& entities) {
-  std::set<std::string> names;
-  for (const Entity& entity : entities) names.insert(entity.name);
-  return names;
-}
-
-/// Names of the entities that still own a triangle, alone or with others.
-std::set<std::string> names_on_surfaces(const StructuralModel& model) {
-  std::set<std::string> names;
-  for (const Surface& surface : model.surfaces)
-    for (const std::uint32_t entity : surface.all_entities) names.insert(model.entities[entity].name);
-  return names;
 }
 
 double area_from_above_m2(const StructuralModel& model, const Surface& surface) {
@@ -234,7 +221,7 @@ TEST_F(Drogon, keeps_its_regions_when_faults_die_inside_and_gains_the_blocks_the
   add_box();
   const CheckedModel checked = cut_model(surfaces_);
   expect_sealed(checked, volumes_with_faults_m3);
-  EXPECT_EQ(names_on_surfaces(checked.built.model), names_of(surfaces_.entities));
+  EXPECT_EQ(support::names_on_surfaces(checked.built.model), support::names_of(surfaces_.entities));
   for (const Coincidence& pair : coincidences)
     EXPECT_NEAR(coinciding(checked.built.model, pair).first / (static_cast<double>(pair.triangles) * grid_triangle_m2),
                 1, 1e-9)
@@ -251,7 +238,7 @@ TEST_F(Drogon, has_the_same_regions_in_a_box_that_the_horizons_overshoot) {
   for (std::size_t k = 0; k < 5; ++k) volumes_m3[large_regions[k]] -= lost_to_inner_box_m3[k];
   // A pocket of 1.3e-4 m3 is closed off outside a wall, where TopTherys and TopVolon touch: it goes with the rest.
   expect_sealed(checked, volumes_m3);
-  EXPECT_EQ(names_on_surfaces(checked.built.model), names_of(surfaces_.entities));
+  EXPECT_EQ(support::names_on_surfaces(checked.built.model), support::names_of(surfaces_.entities));
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(coinciding(checked.built.model, coincidences[k]).first,
                 static_cast<double>(coincidences[k].triangles) * grid_triangle_m2 - coincidence_lost_to_inner_box_m2[k],

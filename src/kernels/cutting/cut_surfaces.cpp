@@ -13,6 +13,7 @@
 #include "kernels/cutting/repair_rounding.h"
 #include "kernels/cutting/rounded_position.h"
 #include "kernels/cutting/suspected_repeats.h"
+#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/weld_points.h"
 #include "model/box3.h"
 
@@ -110,7 +111,7 @@ class SurfaceCutter {
     const WeldedPoints welded = weld_points(points);
     mesh_.points.resize(welded.source.size());
     for (std::size_t i = 0; i < welded.source.size(); ++i) mesh_.points[i] = points[welded.source[i]];
-    input_point_count_ = mesh_.input_point_count = mesh_.points.size();
+    mesh_.input_point_count = mesh_.points.size();
     mesh_.triangles.reserve(soup_.triangles.size());
     for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
       const Triangle& v = soup_.triangles[t];
@@ -127,18 +128,8 @@ class SurfaceCutter {
     result_.report.largest_move_m = std::max(result_.report.largest_move_m, clusters.largest_move_m);
   }
 
-  void keep(const std::vector<char>& is_kept) {
-    std::size_t next = 0;
-    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
-      if (!is_kept[t]) continue;
-      mesh_.triangles[next] = mesh_.triangles[t];
-      mesh_.origin[next] = mesh_.origin[t];
-      mesh_.is_changed[next++] = mesh_.is_changed[t];
-    }
-    mesh_.triangles.resize(next);
-    mesh_.origin.resize(next);
-    mesh_.is_changed.resize(next);
-  }
+  /// Where dropped triangles count: as the input's fault, or as pieces that rounding made flat.
+  std::uint64_t& drop_count() { return result_.report.rounds > 0 ? collapsed_ : result_.report.dropped_triangles; }
 
   /// Drops changed triangles of zero area: their neighbours are cut at the vertex that lies on the long edge.
   void drop_flat() {
@@ -155,13 +146,13 @@ class SurfaceCutter {
       if (!is_kept[t]) {
         any = true;
         for (const std::uint32_t v : mesh_.triangles[t]) is_rim[v] = 1;
-        (is_piece_round_ ? collapsed_ : result_.report.dropped_triangles) += 1;
+        ++drop_count();
       }
     if (!any) return;
     for (std::size_t t = 0; t < is_kept.size(); ++t)
       for (const std::uint32_t v : mesh_.triangles[t])
         if (is_rim[v]) mesh_.is_changed[t] = 1;
-    keep(is_kept);
+    mesh_.keep(is_kept);
   }
 
   /// Drops triangles whose vertices are those of an earlier one of the same entity. Two that look opposite ways are a
@@ -205,12 +196,12 @@ class SurfaceCutter {
         const bool is_fold = balance == 0 && result_.report.rounds > 0 && is_sliver(keys[first].vertices);
         for (std::size_t i = is_fold ? first : first + 1; i < end; ++i) {
           is_kept[keys[i].triangle] = 0;
-          (result_.report.rounds > 0 ? collapsed_ : result_.report.dropped_triangles) += 1;
+          ++drop_count();
         }
       }
       first = end;
     }
-    if (any) keep(is_kept);
+    if (any) mesh_.keep(is_kept);
   }
 
   /// Thinner than joining points can make it.
@@ -223,18 +214,14 @@ class SurfaceCutter {
 
   Result<void> cut(const std::vector<IntersectingPair>& pairs) {
     CutReport& report = result_.report;
-    std::vector<char> may_be_cut;
-    if (!options_.cut.empty()) {
-      may_be_cut.resize(mesh_.triangles.size());
-      for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t) may_be_cut[t] = is_cut_[entity_of(t)];
-    }
-    Result<TriangleCut> cut = cut_triangles(mesh_.points, mesh_.triangles, pairs, may_be_cut, soup_.local_origin);
+    std::vector<char> is_cuttable(options_.cut.empty() ? 0 : mesh_.triangles.size());
+    for (std::uint32_t t = 0; t < is_cuttable.size(); ++t) is_cuttable[t] = may_be_cut(t);
+    Result<TriangleCut> cut = cut_triangles(mesh_.points, mesh_.triangles, pairs, is_cuttable, soup_.local_origin);
     if (!cut) return cut.failure();
-    is_piece_round_ = true;
     if (report.rounds == 1) report.cut_triangles = cut->cut_triangle_count;
     for (std::uint32_t& s : cut->source) s = mesh_.origin[s];
     mesh_ = {std::move(cut->points), std::move(cut->triangles), std::move(cut->source), std::move(cut->is_piece),
-             input_point_count_};
+             mesh_.input_point_count};
     collapsed_ += cut->collapsed_count;
     if (options_.intersection_tolerance_m > 0) merge_near_points();
     return {};
@@ -245,13 +232,12 @@ class SurfaceCutter {
     std::vector<std::uint32_t> near;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t)
       if (mesh_.is_changed[t]) near.insert(near.end(), mesh_.triangles[t].begin(), mesh_.triangles[t].end());
-    std::sort(near.begin(), near.end());
-    near.erase(std::unique(near.begin(), near.end()), near.end());
+    near = sorted_unique(std::move(near));
     std::vector<Vec3> points;
     std::vector<char> is_fixed;
     for (const std::uint32_t v : near) {
       points.push_back(mesh_.points[v]);
-      is_fixed.push_back(v < input_point_count_);
+      is_fixed.push_back(v < mesh_.input_point_count);
     }
     const PointClusters clusters = cluster_points(points, is_fixed, options_.intersection_tolerance_m);
     if (clusters.merged_count == 0) return;
@@ -269,7 +255,7 @@ class SurfaceCutter {
       is_kept[t] = 0;
       ++collapsed_;
     }
-    keep(is_kept);
+    mesh_.keep(is_kept);
   }
 
   /// Joins what rounding left a few units in the last place apart. The reach doubles each round, so it ends.
@@ -345,7 +331,8 @@ class SurfaceCutter {
         out.triangles[t][k] = copy[v];
       }
     }
-    result_.report.new_points = mesh_.points.size() > input_point_count_ ? mesh_.points.size() - input_point_count_ : 0;
+    result_.report.new_points =
+        mesh_.points.size() > mesh_.input_point_count ? mesh_.points.size() - mesh_.input_point_count : 0;
   }
 
   /// Appends the values at a point of an input triangle: linear between its corners.
@@ -380,9 +367,7 @@ class SurfaceCutter {
   const CutSurfacesOptions& options_;
   std::vector<char> is_cut_, cuts_;  ///< per entity
   CutMesh mesh_;
-  std::size_t input_point_count_ = 0;
   bool any_snapped_ = false;
-  bool is_piece_round_ = false;
   std::uint64_t collapsed_ = 0;
   CutResult result_;
 };

@@ -48,11 +48,11 @@ std::vector<std::uint32_t> merge_coincident(CutMesh& mesh, const TriangleSoup& i
 
   std::map<std::vector<std::uint32_t>, std::uint32_t> patch_of_set;
   std::map<std::vector<std::uint32_t>, std::uint64_t> triangles_of_entities;
-  std::vector<char> is_dropped(mesh.triangles.size(), 0);
+  std::vector<char> is_kept(mesh.triangles.size(), 1);
   for (const std::vector<std::uint32_t>& run : runs) {
     std::vector<std::uint32_t> patches, entities;
     for (const std::uint32_t t : run) {
-      is_dropped[t] = t != run[0];
+      is_kept[t] = t == run[0];
       patches.push_back(patch[t]);
       const std::vector<std::uint32_t> own = input.entities_of(patch[t]);
       entities.insert(entities.end(), own.begin(), own.end());
@@ -76,18 +76,11 @@ std::vector<std::uint32_t> merge_coincident(CutMesh& mesh, const TriangleSoup& i
     changes.push_back({"coincident_patches", names + " share " + std::to_string(count) + " triangles",
                        "they are identical there, and one surface stands for all of them"});
   }
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-    if (is_dropped[t]) continue;
-    mesh.triangles[kept] = mesh.triangles[t];
-    mesh.origin[kept] = mesh.origin[t];
-    mesh.is_changed[kept] = mesh.is_changed[t];
-    patch[kept++] = patch[t];
-  }
-  mesh.triangles.resize(kept);
-  mesh.origin.resize(kept);
-  mesh.is_changed.resize(kept);
-  patch.resize(kept);
+  std::size_t next = 0;
+  for (std::size_t t = 0; t < patch.size(); ++t)
+    if (is_kept[t]) patch[next++] = patch[t];
+  patch.resize(next);
+  mesh.keep(is_kept);
   return patch;
 }
 

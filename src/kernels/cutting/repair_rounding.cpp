@@ -7,6 +7,7 @@
 
 #include "base/id.h"
 #include "kernels/cutting/rounded_position.h"
+#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/weld_points.h"
 
 namespace strataflow {
@@ -138,9 +139,7 @@ class Repairer {
         if (is_alive_[at_[i]] && has(at_[i], a) && has(at_[i], b)) found.push_back(at_[i]);
     for (const std::uint32_t t : made_)
       if (is_alive_[t] && has(t, a) && has(t, b)) found.push_back(t);
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
+    return sorted_unique(std::move(found));
   }
 
   void replace(std::uint32_t t, std::uint32_t from, std::uint32_t to) {
@@ -236,24 +235,18 @@ class Repairer {
       for (std::uint32_t v = 0; v < becomes_.size(); ++v)
         if (becomes_[v] == v) becomes_[v] = welded.source[welded.id[v]];
     }
-    std::size_t next = 0;
     for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (!is_alive_[t]) continue;
-      Triangle v = mesh_.triangles[t];
+      Triangle& v = mesh_.triangles[t];
       if (repair_.did_anything())
         for (std::uint32_t& corner : v) {
           const std::uint32_t to = final_of(corner);
           if (to != corner) mesh_.is_changed[t] = 1;
           corner = to;
         }
-      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-      mesh_.triangles[next] = v;
-      mesh_.origin[next] = mesh_.origin[t];
-      mesh_.is_changed[next++] = mesh_.is_changed[t];
+      is_alive_[t] = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
     }
-    mesh_.triangles.resize(next);
-    mesh_.origin.resize(next);
-    mesh_.is_changed.resize(next);
+    mesh_.keep(is_alive_);
   }
 
   CutMesh& mesh_;
@@ -267,6 +260,19 @@ class Repairer {
 };
 
 }  // namespace
+
+void CutMesh::keep(const std::vector<char>& is_kept) {
+  std::size_t next = 0;
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    if (!is_kept[t]) continue;
+    triangles[next] = triangles[t];
+    origin[next] = origin[t];
+    is_changed[next++] = is_changed[t];
+  }
+  triangles.resize(next);
+  origin.resize(next);
+  is_changed.resize(next);
+}
 
 RoundingRepair repair_rounding(CutMesh& mesh, const std::vector<IntersectingPair>& pairs, double reach_m,
                                const Vec3& origin) {

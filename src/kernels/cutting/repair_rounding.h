@@ -14,6 +14,9 @@ struct CutMesh {
   std::vector<std::uint32_t> origin;
   std::vector<char> is_changed;       ///< in the last round: look here for intersections
   std::size_t input_point_count = 0;  ///< points before this were there before cutting
+
+  /// Leaves only the triangles marked, one mark per triangle, in their order.
+  void keep(const std::vector<char>& is_kept);
 };
 
 struct RoundingRepair {

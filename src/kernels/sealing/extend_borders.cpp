@@ -8,8 +8,8 @@
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/intersection/bounding_volume_tree.h"
+#include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/edge_table.h"
-#include "kernels/topology/weld_points.h"
 
 namespace strataflow {
 
@@ -35,37 +35,28 @@ struct ShortEdge {
 
 class BorderExtender {
  public:
-  BorderExtender(const TriangleSoup& soup, const ExtendBordersOptions& options) : soup_(soup), options_(options) {}
+  BorderExtender(const TriangleSoup& soup, const ExtendBordersOptions& options)
+      : soup_(soup), options_(options), mesh_(soup) {}
 
   Result<void> find() {
     if (auto ok = read_reach(); !ok) return ok;
-    const WeldedPoints welded = weld_points(soup_.points);
-    id_ = welded.id;
-    points_.reserve(welded.source.size());
-    for (const std::uint32_t s : welded.source) points_.push_back(soup_.points[s]);
-    for (std::uint32_t t = 0; t < soup_.triangles.size(); ++t) {
-      Triangle v = soup_.triangles[t];
-      for (std::uint32_t& corner : v) corner = id_[corner];
-      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-      triangles_.push_back(v);
-      entity_.push_back(soup_.patch_entity[soup_.triangle_patch[t]]);
-    }
     const std::vector<FloatBox> boxes = parallel_map(
-        triangles_.size(),
+        mesh_.triangles.size(),
         [&](std::size_t t) {
           Box3 box;
-          for (const std::uint32_t v : triangles_[t]) box.take(points_[v]);
+          for (const std::uint32_t v : mesh_.triangles[t]) box.take(mesh_.points[v]);
           return enclosing(box);
         },
         4096);
     tree_ = BoundingVolumeTree(boxes);
-    const EdgeTable table = build_edge_table(points_.size(), triangles_);
+    const EdgeTable table = build_edge_table(mesh_.points.size(), mesh_.triangles);
     for (std::uint32_t e = 0; e < table.edge_count(); ++e) {
       const auto around = table.around(e);
       if (around.size() != 1) continue;
       const std::uint32_t t = around[0] / 3, k = around[0] % 3;
-      ShortEdge edge{triangles_[t][k], triangles_[t][(k + 1) % 3], t, {}, 0, -1, {}, no_index};
-      const Vec3 &a = points_[edge.a], &b = points_[edge.b], &c = points_[triangles_[t][(k + 2) % 3]];
+      ShortEdge edge{mesh_.triangles[t][k], mesh_.triangles[t][(k + 1) % 3], t, {}, 0, -1, {}, no_index};
+      const Vec3 &a = mesh_.points[edge.a], &b = mesh_.points[edge.b],
+                 &c = mesh_.points[mesh_.triangles[t][(k + 2) % 3]];
       const Vec3 out = cross(b - a, cross(b - a, c - a));
       const double l = length(out);
       edge.edge_length = length(b - a);
@@ -84,7 +75,7 @@ class BorderExtender {
     std::map<std::pair<std::uint32_t, std::uint32_t>, BorderGap> by_pair;
     for (const ShortEdge& edge : edges_) {
       if (edge.gap < 0) continue;
-      const std::uint32_t entity = entity_[edge.triangle];
+      const std::uint32_t entity = mesh_.entity[edge.triangle];
       BorderGap& gap = by_pair.try_emplace({entity, edge.onto}, BorderGap{entity, edge.onto, -1, {}, 0}).first->second;
       ++gap.edge_count;
       if (edge.gap > gap.largest_m) {
@@ -100,27 +91,27 @@ class BorderExtender {
   ExtendedBorders extend() {
     ExtendedBorders result{soup_, gaps(), 0, 0};
     // The (one or more) free edges at each border point.
-    std::vector<std::vector<std::uint32_t>> at(points_.size());
-    std::vector<char> is_moved_border(points_.size(), 0);
+    std::vector<std::vector<std::uint32_t>> at(mesh_.points.size());
+    std::vector<char> is_moved_border(mesh_.points.size(), 0);
     for (std::uint32_t e = 0; e < edges_.size(); ++e)
       for (const std::uint32_t v : {edges_[e].a, edges_[e].b}) {
         at[v].push_back(e);
         if (edges_[e].gap >= 0) is_moved_border[v] = 1;
       }
-    std::vector<std::vector<std::uint32_t>> triangles_at(points_.size());
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (const std::uint32_t v : triangles_[t])
+    std::vector<std::vector<std::uint32_t>> triangles_at(mesh_.points.size());
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (const std::uint32_t v : mesh_.triangles[t])
         if (is_moved_border[v]) triangles_at[v].push_back(t);
-    std::vector<Vec3> move(points_.size());
-    for (std::uint32_t v = 0; v < points_.size(); ++v) {
+    std::vector<Vec3> move(mesh_.points.size());
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
       if (!is_moved_border[v]) continue;
       const bool is_shared = std::any_of(triangles_at[v].begin(), triangles_at[v].end(), [&](std::uint32_t t) {
-        return entity_[t] != entity_[triangles_at[v].front()];
+        return mesh_.entity[t] != mesh_.entity[triangles_at[v].front()];
       });
       if (!is_shared) move[v] = shortened(v, way_of(v, at[v]), triangles_at[v]);
     }
     for (std::size_t p = 0; p < soup_.points.size(); ++p) {
-      const Vec3& by = move[id_[p]];
+      const Vec3& by = move[mesh_.id[p]];
       if (by == Vec3{}) continue;
       result.soup.points[p] = result.soup.points[p] + by;
     }
@@ -159,11 +150,11 @@ class BorderExtender {
 
   /// Which other entities each point of a free edge lies on.
   void find_held_points() {
-    std::vector<char> is_free(points_.size(), 0);
+    std::vector<char> is_free(mesh_.points.size(), 0);
     for (const ShortEdge& edge : edges_) is_free[edge.a] = is_free[edge.b] = 1;
-    for (std::uint32_t t = 0; t < triangles_.size(); ++t)
-      for (const std::uint32_t v : triangles_[t])
-        if (is_free[v]) held_.push_back({v, entity_[t]});
+    for (std::uint32_t t = 0; t < mesh_.triangles.size(); ++t)
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (is_free[v]) held_.push_back({v, mesh_.entity[t]});
     std::sort(held_.begin(), held_.end());
     held_.erase(std::unique(held_.begin(), held_.end()), held_.end());
   }
@@ -172,12 +163,13 @@ class BorderExtender {
   /// does not stop short of that horizon, which goes on beside it.
   bool rises_from(const ShortEdge& edge, std::uint32_t t) const {
     const auto is_on = [&](std::uint32_t v) {
-      return std::binary_search(held_.begin(), held_.end(), std::pair(v, entity_[t]));
+      return std::binary_search(held_.begin(), held_.end(), std::pair(v, mesh_.entity[t]));
     };
     if (!is_on(edge.a) && !is_on(edge.b)) return false;
-    const Triangle& v = triangles_[t];
-    const Vec3 normal = cross(points_[v[1]] - points_[v[0]], points_[v[2]] - points_[v[0]]);
-    return std::abs(dot(points_[edge.b] - points_[edge.a], normal)) > most_sine * length(normal) * edge.edge_length;
+    const Triangle& v = mesh_.triangles[t];
+    const Vec3 normal = cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]);
+    return std::abs(dot(mesh_.points[edge.b] - mesh_.points[edge.a], normal)) >
+           most_sine * length(normal) * edge.edge_length;
   }
 
   double reach(std::uint32_t entity, std::uint32_t onto) const {
@@ -194,21 +186,21 @@ class BorderExtender {
   /// Follows an edge's way on from three of its points.
   void probe_ahead(ShortEdge& edge) const {
     for (const double share : {0.02, 0.5, 0.98}) {
-      const Vec3 from = points_[edge.a] + share * (points_[edge.b] - points_[edge.a]);
+      const Vec3 from = mesh_.points[edge.a] + share * (mesh_.points[edge.b] - mesh_.points[edge.a]);
       double nearest = std::numeric_limits<double>::infinity();
       std::uint32_t onto = no_index;
       Box3 box;
       box.take(from);
       box.take(from + longest_graze * furthest_ * edge.outward);
       tree_.visit_items(enclosing(box), [&](std::uint32_t t) {
-        if (entity_[t] == entity_[edge.triangle]) return;
-        const auto [distance, height] = distance_along(from, edge.outward, triangles_[t]);
-        const double most = reach(entity_[edge.triangle], entity_[t]);
+        if (mesh_.entity[t] == mesh_.entity[edge.triangle]) return;
+        const auto [distance, height] = distance_along(from, edge.outward, mesh_.triangles[t]);
+        const double most = reach(mesh_.entity[edge.triangle], mesh_.entity[t]);
         // A surface met at a small angle is near even where the way to it is long.
         if ((distance <= most || (distance <= longest_graze * most && height <= graze_height * most)) &&
-            (distance < nearest || (distance == nearest && entity_[t] < onto)) && !rises_from(edge, t)) {
+            (distance < nearest || (distance == nearest && mesh_.entity[t] < onto)) && !rises_from(edge, t)) {
           nearest = distance;
-          onto = entity_[t];
+          onto = mesh_.entity[t];
         }
       });
       if (onto == no_index || nearest <= edge.gap) continue;
@@ -221,8 +213,8 @@ class BorderExtender {
   /// An edge that runs along a surface all its length, where its way on would graze it or pass it by: a branch line,
   /// an onlap.
   void probe_beside(ShortEdge& edge) const {
-    const Vec3 &a = points_[edge.a], &b = points_[edge.b];
-    const std::uint32_t own = entity_[edge.triangle];
+    const Vec3 &a = mesh_.points[edge.a], &b = mesh_.points[edge.b];
+    const std::uint32_t own = mesh_.entity[edge.triangle];
     struct Near {
       double distance;
       Vec3 towards;
@@ -236,18 +228,19 @@ class BorderExtender {
       box.take(from - Vec3{furthest_, furthest_, furthest_});
       box.take(from + Vec3{furthest_, furthest_, furthest_});
       tree_.visit_items(enclosing(box), [&](std::uint32_t t) {
-        if (entity_[t] == own) return;
-        const Triangle& v = triangles_[t];
-        const Vec3 normal = cross(points_[v[1]] - points_[v[0]], points_[v[2]] - points_[v[0]]);
-        const double n = length(normal), height = dot(from - points_[v[0]], normal);
+        if (mesh_.entity[t] == own) return;
+        const Triangle& v = mesh_.triangles[t];
+        const Vec3 normal = cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]);
+        const double n = length(normal), height = dot(from - mesh_.points[v[0]], normal);
         // Only where the foot of the perpendicular is in the triangle: beside it, not beyond its rim.
         const Vec3 foot = from - (height / (n * n)) * normal;
         for (int k = 0; k < 3; ++k)
-          if (dot(cross(points_[v[(k + 1) % 3]] - points_[v[k]], foot - points_[v[k]]), normal) < 0) return;
+          if (dot(cross(mesh_.points[v[(k + 1) % 3]] - mesh_.points[v[k]], foot - mesh_.points[v[k]]), normal) < 0)
+            return;
         const double distance = std::abs(height) / n;
-        if (!(distance <= reach(own, entity_[t]))) return;
+        if (!(distance <= reach(own, mesh_.entity[t]))) return;
         const bool is_parallel = std::abs(dot(b - a, normal)) <= most_sine * n * edge.edge_length;
-        const Near found{distance, (height > 0 ? -1 / n : 1 / n) * normal, entity_[t], is_parallel};
+        const Near found{distance, (height > 0 ? -1 / n : 1 / n) * normal, mesh_.entity[t], is_parallel};
         const auto same =
             std::find_if(near.begin(), near.end(), [&](const Near& o) { return o.entity == found.entity; });
         if (same == near.end())
@@ -287,7 +280,7 @@ class BorderExtender {
   Hit distance_along(const Vec3& p, const Vec3& direction, const Triangle& t) const {
     constexpr double rim = 1e-9;
     constexpr Hit none{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    const Vec3 &a = points_[t[0]], &b = points_[t[1]], &c = points_[t[2]];
+    const Vec3 &a = mesh_.points[t[0]], &b = mesh_.points[t[1]], &c = mesh_.points[t[2]];
     const Vec3 normal = cross(b - a, c - a);
     const double n = length(normal), steep = dot(normal, direction);
     if (!(std::abs(steep) > least_sine * n)) return none;
@@ -322,7 +315,7 @@ class BorderExtender {
     const ShortEdge &reaching = first.gap >= 0 ? first : second, &other = first.gap >= 0 ? second : first;
     const double l = wanted(reaching);
     // The border that stays free is prolonged.
-    const Vec3 along = points_[v] - points_[other.a == v ? other.b : other.a];
+    const Vec3 along = mesh_.points[v] - mesh_.points[other.a == v ? other.b : other.a];
     const double straight = dot(along, reaching.outward) / length(along);
     if (straight > 0.5) return (l / straight / length(along)) * along;
     return l * reaching.outward;
@@ -332,10 +325,10 @@ class BorderExtender {
     for (int attempt = 0; attempt < 4 && !(way == Vec3{}); ++attempt) {
       const bool turns = std::any_of(around.begin(), around.end(), [&](std::uint32_t t) {
         std::array<Vec3, 3> p;
-        for (int k = 0; k < 3; ++k) p[k] = points_[triangles_[t][k]];
+        for (int k = 0; k < 3; ++k) p[k] = mesh_.points[mesh_.triangles[t][k]];
         const Vec3 before = cross(p[1] - p[0], p[2] - p[0]);
         for (int k = 0; k < 3; ++k)
-          if (triangles_[t][k] == v) p[k] = p[k] + way;
+          if (mesh_.triangles[t][k] == v) p[k] = p[k] + way;
         const Vec3 after = cross(p[1] - p[0], p[2] - p[0]);
         return !(dot(before, after) > 0.5 * length(before) * length(after));
       });
@@ -347,12 +340,9 @@ class BorderExtender {
 
   const TriangleSoup& soup_;
   const ExtendBordersOptions& options_;
+  WeldedSoup mesh_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> named_;
   double furthest_ = 0;
-  std::vector<std::uint32_t> id_;
-  std::vector<Vec3> points_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> entity_;
   BoundingVolumeTree tree_;
   std::vector<ShortEdge> edges_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> held_;  ///< (point of a free edge, entity), sorted

@@ -1,46 +1,23 @@
 #include "kernels/sealing/find_leaks.h"
 
 #include <algorithm>
-#include <array>
 
 #include "base/id.h"
 #include "base/internal_error.h"
 #include "base/option_field.h"
 #include "kernels/contacts/find_contacts.h"
 #include "kernels/sealing/extend_borders.h"
+#include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/edge_table.h"
+#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/union_find.h"
-#include "kernels/topology/weld_points.h"
 
 namespace strataflow {
 
-namespace {
-
-struct Welded {
-  std::vector<std::uint32_t> id;
-  std::vector<Triangle> triangles;
-  std::vector<std::uint32_t> entity;
-  EdgeTable edges;
-
-  explicit Welded(const TriangleSoup& soup) {
-    const WeldedPoints points = weld_points(soup.points);
-    id = points.id;
-    for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-      Triangle v = soup.triangles[t];
-      for (std::uint32_t& corner : v) corner = id[corner];
-      if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-      triangles.push_back(v);
-      entity.push_back(soup.patch_entity[soup.triangle_patch[t]]);
-    }
-    edges = build_edge_table(points.source.size(), triangles);
-  }
-};
-
-}  // namespace
-
 std::vector<Leak> find_leaks(const TriangleSoup& soup, double sealing_distance_m, double search_distance_m) {
   const FoundContacts contacts = find_contacts(soup, {.distance_m = search_distance_m});
-  const Welded mesh(soup);
+  const WeldedSoup mesh(soup);
+  const EdgeTable edges = build_edge_table(mesh.points.size(), mesh.triangles);
   std::vector<Leak> leaks;
   for (std::size_t i = 0; i < contacts.gaps.size(); ++i) {
     const BorderOnSurface& border = contacts.constraints.borders[i];
@@ -50,9 +27,9 @@ std::vector<Leak> find_leaks(const TriangleSoup& soup, double sealing_distance_m
     if (soup.entities[border.entity].role == Role::fault && gap.max_gap_m > most) continue;
     std::size_t free = 0, count = 0;
     for (std::size_t k = 0; k + 1 < border.points.size(); ++k) {
-      const std::uint32_t e = find_edge(mesh.edges, mesh.id[border.points[k]], mesh.id[border.points[k + 1]]);
+      const std::uint32_t e = find_edge(edges, mesh.id[border.points[k]], mesh.id[border.points[k + 1]]);
       ++count;
-      if (e != no_index && mesh.edges.around(e).size() == 1) ++free;
+      if (e != no_index && edges.around(e).size() == 1) ++free;
     }
     if (2 * free <= count) continue;
     leaks.push_back({border.entity, border.controller, gap.max_gap_m, describe(soup, border, gap)});
@@ -77,23 +54,22 @@ std::vector<Leak> find_leaks(const TriangleSoup& soup, double sealing_distance_m
 }
 
 std::vector<std::uint32_t> find_loose_entities(const TriangleSoup& soup) {
-  const Welded mesh(soup);
+  const WeldedSoup mesh(soup);
+  const EdgeTable edges = build_edge_table(mesh.points.size(), mesh.triangles);
   UnionFind pieces(mesh.triangles.size());
   const auto is_inner = [&](std::span<const std::uint32_t> around) {
     return around.size() == 2 && mesh.entity[around[0] / 3] == mesh.entity[around[1] / 3];
   };
-  for (std::uint32_t e = 0; e < mesh.edges.edge_count(); ++e)
-    if (const auto around = mesh.edges.around(e); is_inner(around)) pieces.unite(around[0] / 3, around[1] / 3);
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e)
+    if (const auto around = edges.around(e); is_inner(around)) pieces.unite(around[0] / 3, around[1] / 3);
   std::vector<char> touches(mesh.triangles.size(), 0);
-  for (std::uint32_t e = 0; e < mesh.edges.edge_count(); ++e)
-    if (const auto around = mesh.edges.around(e); around.size() > 1 && !is_inner(around))
+  for (std::uint32_t e = 0; e < edges.edge_count(); ++e)
+    if (const auto around = edges.around(e); around.size() > 1 && !is_inner(around))
       for (const std::uint32_t h : around) touches[pieces.find(h / 3)] = 1;
   std::vector<std::uint32_t> loose;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     if (pieces.find(t) == t && !touches[t]) loose.push_back(mesh.entity[t]);
-  std::sort(loose.begin(), loose.end());
-  loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
-  return loose;
+  return sorted_unique(std::move(loose));
 }
 
 }  // namespace strataflow

@@ -24,15 +24,6 @@ int rank_of(Role role) {
   }
 }
 
-double area_of(const StructuralModel& model, const Surface& surface) {
-  double area = 0;
-  for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) {
-    const Triangle& v = model.triangles[t];
-    area += 0.5 * length(cross(model.points[v[1]] - model.points[v[0]], model.points[v[2]] - model.points[v[0]]));
-  }
-  return area;
-}
-
 /// The surface to delete so that a region joins a neighbour, or no_index.
 std::uint32_t choose_surface(const StructuralModel& model, std::uint32_t region) {
   std::uint32_t best = no_index;
@@ -47,7 +38,7 @@ std::uint32_t choose_surface(const StructuralModel& model, std::uint32_t region)
       rank = std::max(rank, rank_of(model.entities[e].role));
     }
     if (is_boundary) continue;
-    const std::tuple<int, double> key{rank, -area_of(model, surface)};
+    const std::tuple<int, double> key{rank, -area_m2(model, surface)};
     if (best != no_index && !(key < best_key)) continue;
     best = s;
     best_key = key;
@@ -70,7 +61,7 @@ Result<MergedRegions> merge_micro_regions(const TriangleSoup& soup, const MicroR
     double whole = 0;
     for (const Surface& surface : model.surfaces)
       for (const std::uint32_t r : {surface.region_plus, surface.region_minus})
-        if (r != universe && !surface.is_dangling()) frontier_area[r] += area_of(model, surface);
+        if (r != universe && !surface.is_dangling()) frontier_area[r] += area_m2(model, surface);
     for (const Region& region : model.regions) whole += region.volume_m3;
     for (std::uint32_t r = 0; r < model.regions.size(); ++r) {
       const double volume = model.regions[r].volume_m3;

@@ -42,6 +42,12 @@ Box3 box_of(const TriangleSoup& soup) {
   return box;
 }
 
+std::uint64_t edge_count(const std::vector<BorderGap>& gaps) {
+  std::uint64_t count = 0;
+  for (const BorderGap& gap : gaps) count += gap.edge_count;
+  return count;
+}
+
 void add(CutReport& sum, const CutReport& more) {
   if (sum.rounds == 0) sum.intersecting_pairs = more.intersecting_pairs;
   sum.cut_triangles += more.cut_triangles;
@@ -57,7 +63,7 @@ void add(CutReport& sum, const CutReport& more) {
 }  // namespace
 
 double sealing_distance_m(const TriangleSoup& soup, const SealSurfacesOptions& options) {
-  return options.distance_m.value_or(options.distance_ratio * box_of(soup).diagonal_m());
+  return options.distance_m ? *options.distance_m : options.distance_ratio * box_of(soup).diagonal_m();
 }
 
 namespace {
@@ -87,10 +93,10 @@ class Sealer {
           trim_distance_[e] = std::max(trim_distance_[e], mitre * contact.distance_m);
     cutting_.intersection_tolerance_m =
         std::max(cutting_.intersection_tolerance_m, options.point_tolerance_ratio * box_of(soup).diagonal_m());
-    result_.soup = soup;
   }
 
   Result<CutResult> run() {
+    result_.soup = input_;
     if (auto ok = make_contacts(); !ok) return ok.failure();
     if (auto ok = cut_again(); !ok) return ok.failure();
     return finish();
@@ -156,16 +162,15 @@ class Sealer {
   Result<std::uint64_t> count_short_edges() const {
     const Result<std::vector<BorderGap>> gaps = find_gaps(result_.soup, extend_);
     if (!gaps) return gaps.failure();
-    std::uint64_t count = 0;
-    for (const BorderGap& gap : *gaps) count += gap.edge_count;
-    return count;
+    return edge_count(*gaps);
   }
 
   /// What the exact cut left open along borders that it made contacts of in part: led onto them like the rest.
   Result<void> lead_while_it_helps() {
     Result<std::uint64_t> count = count_short_edges();
     if (!count) return count.failure();
-    for (int pass = 0; pass<options_.passes&& * count> 0; ++pass) {
+    for (int pass = 0; pass < options_.passes; ++pass) {
+      if (*count == 0) return {};
       CutResult before = result_;
       const Result<bool> is_led = lead(find_contacts(result_.soup, {.distance_m = extend_.distance_m}));
       if (!is_led) return is_led.failure();
@@ -202,12 +207,11 @@ class Sealer {
   /// Each pass goes further past what it should reach than the one before. A pass that closes nothing is undone.
   Result<void> extend_while_it_helps() {
     std::uint64_t short_edges = std::numeric_limits<std::uint64_t>::max();
-    CutResult before = result_;
+    CutResult before;  // as it was before the last pass
     for (int pass = 0; pass <= options_.passes; ++pass) {
       Result<ExtendedBorders> extended = extend_borders(result_.soup, extend_);
       if (!extended) return extended.failure();
-      std::uint64_t count = 0;
-      for (const BorderGap& gap : extended->gaps) count += gap.edge_count;
+      const std::uint64_t count = edge_count(extended->gaps);
       if (count >= short_edges) {
         result_ = std::move(before);
         return {};

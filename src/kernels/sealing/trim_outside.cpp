@@ -56,14 +56,8 @@ Result<TrimmedSurfaces> trim_outside(const TriangleSoup& soup) {
     if (!is_beyond &&
         (is_boundary(model, surface) || !lies_outside(surface.region_plus) || !lies_outside(surface.region_minus)))
       continue;
-    TrimmedPiece piece{surface.entity, surface.end_triangle - surface.first_triangle, 0,
-                       model.points[model.triangles[surface.first_triangle][0]]};
-    for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) {
-      const Triangle& v = model.triangles[t];
-      piece.area_m2 +=
-          0.5 * length(cross(model.points[v[1]] - model.points[v[0]], model.points[v[2]] - model.points[v[0]]));
-    }
-    result.pieces.push_back(piece);
+    result.pieces.push_back({surface.entity, surface.end_triangle - surface.first_triangle, area_m2(model, surface),
+                             model.points[model.triangles[surface.first_triangle][0]]});
     outside.push_back(s);
   }
   if (!outside.empty()) result.soup = without_surfaces(soup, model, outside);

@@ -7,9 +7,9 @@
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/intersection/bounding_volume_tree.h"
+#include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/edge_table.h"
 #include "kernels/topology/union_find.h"
-#include "kernels/topology/weld_points.h"
 
 namespace strataflow {
 
@@ -66,16 +66,8 @@ struct Piece {
 class Trimmer {
  public:
   Trimmer(const TriangleSoup& soup, double distance, const std::vector<double>& entity_distance)
-      : soup_(soup), distances_(entity_distance) {
+      : soup_(soup), distances_(entity_distance), mesh_(soup) {
     if (distances_.empty()) distances_.assign(soup.entities.size(), distance);
-    const WeldedPoints welded = weld_points(soup.points);
-    for (const std::uint32_t s : welded.source) points_.push_back(soup.points[s]);
-    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t) {
-      Triangle v = soup.triangles[t];
-      for (std::uint32_t& corner : v) corner = welded.id[corner];
-      triangles_.push_back(v);
-      origin_.push_back(t);
-    }
     is_kept_.assign(soup.triangles.size(), 1);
   }
 
@@ -84,24 +76,16 @@ class Trimmer {
     while (trim_once(result)) {
     }
     result.soup = soup_;
-    if (result.pieces.empty()) return result;
-    std::size_t next = 0;
-    for (std::size_t t = 0; t < soup_.triangles.size(); ++t) {
-      if (!is_kept_[t]) continue;
-      result.soup.triangles[next] = soup_.triangles[t];
-      result.soup.triangle_patch[next++] = soup_.triangle_patch[t];
-    }
-    result.soup.triangles.resize(next);
-    result.soup.triangle_patch.resize(next);
+    if (!result.pieces.empty()) keep_triangles(result.soup, is_kept_);
     return result;
   }
 
  private:
-  std::uint32_t entity_of(std::uint32_t t) const { return soup_.patch_entity[soup_.triangle_patch[origin_[t]]]; }
+  std::uint32_t entity_of(std::uint32_t t) const { return mesh_.entity[t]; }
 
   std::vector<Piece> find_pieces() const {
-    const EdgeTable table = build_edge_table(points_.size(), triangles_);
-    const auto count = static_cast<std::uint32_t>(triangles_.size());
+    const EdgeTable table = build_edge_table(mesh_.points.size(), mesh_.triangles);
+    const auto count = static_cast<std::uint32_t>(mesh_.triangles.size());
     UnionFind sets(count);
     const auto is_inner = [&](std::span<const std::uint32_t> around) {
       return around.size() == 2 && entity_of(around[0] / 3) == entity_of(around[1] / 3);
@@ -117,8 +101,9 @@ class Trimmer {
         pieces.emplace_back();
       }
       pieces[n].triangles.push_back(t);
-      const Triangle& v = triangles_[t];
-      pieces[n].area += 0.5 * length(cross(points_[v[1]] - points_[v[0]], points_[v[2]] - points_[v[0]]));
+      const Triangle& v = mesh_.triangles[t];
+      pieces[n].area +=
+          0.5 * length(cross(mesh_.points[v[1]] - mesh_.points[v[0]], mesh_.points[v[2]] - mesh_.points[v[0]]));
     }
     for (std::uint32_t e = 0; e < table.edge_count(); ++e) {
       const auto around = table.around(e);
@@ -136,12 +121,12 @@ class Trimmer {
     if (piece.free.empty() || piece.contact.empty()) return false;
     const double distance = distances_[entity_of(piece.triangles.front())];
     double free_length = 0;
-    for (const Edge& e : piece.free) free_length += length(points_[e[1]] - points_[e[0]]);
+    for (const Edge& e : piece.free) free_length += length(mesh_.points[e[1]] - mesh_.points[e[0]]);
     if (piece.area > 4 * (free_length + distance) * distance) return false;
-    const NearEdges free(points_, piece.free), contact(points_, piece.contact);
+    const NearEdges free(mesh_.points, piece.free), contact(mesh_.points, piece.contact);
     for (const std::uint32_t t : piece.triangles)
-      for (const std::uint32_t v : triangles_[t])
-        if (!free.is_near(points_[v], distance) || !contact.is_near(points_[v], distance)) return false;
+      for (const std::uint32_t v : mesh_.triangles[t])
+        if (!free.is_near(mesh_.points[v], distance) || !contact.is_near(mesh_.points[v], distance)) return false;
     return true;
   }
 
@@ -149,37 +134,37 @@ class Trimmer {
     const std::vector<Piece> pieces = find_pieces();
     const std::vector<char> goes =
         parallel_map(pieces.size(), [&](std::size_t i) { return static_cast<char>(juts_out(pieces[i])); });
-    std::vector<char> is_gone(triangles_.size(), 0);
+    std::vector<char> is_gone(mesh_.triangles.size(), 0);
     bool any = false;
     for (std::size_t i = 0; i < pieces.size(); ++i) {
       if (!goes[i]) continue;
       any = true;
       const std::uint32_t first = pieces[i].triangles.front();
       result.pieces.push_back(
-          {entity_of(first), pieces[i].triangles.size(), pieces[i].area, points_[triangles_[first][0]]});
+          {entity_of(first), pieces[i].triangles.size(), pieces[i].area, mesh_.points[mesh_.triangles[first][0]]});
       for (const std::uint32_t t : pieces[i].triangles) is_gone[t] = 1;
     }
     if (!any) return false;
     std::size_t next = 0;
-    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t t = 0; t < mesh_.triangles.size(); ++t) {
       if (is_gone[t]) {
-        is_kept_[origin_[t]] = 0;
+        is_kept_[mesh_.origin[t]] = 0;
         continue;
       }
-      triangles_[next] = triangles_[t];
-      origin_[next++] = origin_[t];
+      mesh_.triangles[next] = mesh_.triangles[t];
+      mesh_.entity[next] = mesh_.entity[t];
+      mesh_.origin[next++] = mesh_.origin[t];
     }
-    triangles_.resize(next);
-    origin_.resize(next);
+    mesh_.triangles.resize(next);
+    mesh_.entity.resize(next);
+    mesh_.origin.resize(next);
     return true;
   }
 
   const TriangleSoup& soup_;
   std::vector<double> distances_;  ///< per entity
-  std::vector<Vec3> points_;
-  std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> origin_;
-  std::vector<char> is_kept_;
+  WeldedSoup mesh_;                ///< what is left
+  std::vector<char> is_kept_;      ///< per triangle of the soup
 };
 
 }  // namespace

@@ -2,9 +2,19 @@
 
 #include <algorithm>
 
+#include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/weld_points.h"
 
 namespace strataflow {
+
+double area_m2(const StructuralModel& model, const Surface& surface) {
+  double area = 0;
+  for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) {
+    const Triangle& v = model.triangles[t];
+    area += 0.5 * length(cross(model.points[v[1]] - model.points[v[0]], model.points[v[2]] - model.points[v[0]]));
+  }
+  return area;
+}
 
 TriangleSoup without_surfaces(const TriangleSoup& soup, const StructuralModel& model,
                               const std::vector<std::uint32_t>& surfaces) {
@@ -21,15 +31,11 @@ TriangleSoup without_surfaces(const TriangleSoup& soup, const StructuralModel& m
     for (std::uint32_t t = model.surfaces[s].first_triangle; t < model.surfaces[s].end_triangle; ++t)
       doomed.push_back(key_of(model.triangles[t], 0));
   std::sort(doomed.begin(), doomed.end());
+  std::vector<char> is_kept(soup.triangles.size());
+  for (std::size_t t = 0; t < is_kept.size(); ++t)
+    is_kept[t] = !std::binary_search(doomed.begin(), doomed.end(), key_of(soup.triangles[t], model.points.size()));
   TriangleSoup rest = soup;
-  std::size_t next = 0;
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    if (std::binary_search(doomed.begin(), doomed.end(), key_of(soup.triangles[t], model.points.size()))) continue;
-    rest.triangles[next] = soup.triangles[t];
-    rest.triangle_patch[next++] = soup.triangle_patch[t];
-  }
-  rest.triangles.resize(next);
-  rest.triangle_patch.resize(next);
+  keep_triangles(rest, is_kept);
   return rest;
 }
 
