@@ -26,7 +26,7 @@
 #include "kernels/cutting/cut_surfaces.h"
 #include "kernels/cutting/cut_triangles.h"
 #include "kernels/intersection/find_intersections.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace {
 

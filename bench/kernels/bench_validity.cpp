@@ -7,8 +7,8 @@
 
 #include "kernels/intersection/find_intersections.h"
 #include "kernels/reference_models/generate_reference_model.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include "io/model_file/write_model_file.h"
 #include "io/surface/write_obj.h"
 #include "io/vtk/write_vtk_xml.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 
 namespace strataflow {
 

@@ -1,6 +1,6 @@
 #include "stages/build_model_stage.h"
 
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 
 namespace strataflow {
 

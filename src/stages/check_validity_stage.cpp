@@ -1,6 +1,6 @@
 #include "stages/check_validity_stage.h"
 
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/validity/check_validity.h"
 
 namespace strataflow {
 

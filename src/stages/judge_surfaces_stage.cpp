@@ -4,8 +4,8 @@
 
 #include "kernels/sealing/find_leaks.h"
 #include "kernels/sealing/seal_surfaces.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "stages/check_validity_stage.h"
 #include "stages/seal_stage.h"
 

@@ -9,8 +9,8 @@
 #include "base/archive.h"
 #include "base/digest.h"
 #include "kernels/reference_models/generate_reference_model.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "properties/rotation.h"
 #include "support/shuffled.h"
 

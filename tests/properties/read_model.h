@@ -14,8 +14,8 @@
 #include "io/input/combine_inputs.h"
 #include "io/input/local_origin.h"
 #include "io/read_input.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "properties/model_file_texts.h"
 #include "support/command_line.h"
 

@@ -5,7 +5,7 @@
 
 #include "batch/program_version.h"
 #include "batch/report/html_page.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/validity/check_validity.h"
 
 namespace strataflow {
 

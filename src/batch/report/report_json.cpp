@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/program_version.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "stages/all_stages.h"
 
 namespace strataflow {

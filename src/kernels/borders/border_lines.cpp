@@ -7,9 +7,9 @@
 
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
-#include "kernels/topology/build_lines.h"
-#include "kernels/topology/build_surfaces.h"
-#include "kernels/topology/radial_order.h"
+#include "kernels/topology/building/build_lines.h"
+#include "kernels/topology/building/build_surfaces.h"
+#include "kernels/topology/building/radial_order.h"
 
 namespace strataflow {
 

@@ -13,7 +13,7 @@
 #include "kernels/intersection/find_intersections.h"
 #include "kernels/scars/drop_unused_points.h"
 #include "kernels/topology/union_find.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "kernels/adapters/cgal/exact_predicates.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 #include "model/box3.h"
 
 namespace strataflow {

@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "base/id.h"
-#include "kernels/topology/edge_table.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/edge_table.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

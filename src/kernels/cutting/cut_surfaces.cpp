@@ -14,7 +14,7 @@
 #include "kernels/cutting/rounded_position.h"
 #include "kernels/cutting/suspected_repeats.h"
 #include "kernels/topology/sorted_unique.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 #include "model/box3.h"
 
 namespace strataflow {

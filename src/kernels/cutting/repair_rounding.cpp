@@ -8,7 +8,7 @@
 #include "base/id.h"
 #include "kernels/cutting/rounded_position.h"
 #include "kernels/topology/sorted_unique.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

@@ -7,8 +7,8 @@
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "graph/parallel/sort_total_order.h"
-#include "kernels/topology/edge_table.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/edge_table.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

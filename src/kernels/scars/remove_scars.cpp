@@ -5,7 +5,7 @@
 #include "base/id.h"
 #include "kernels/scars/drop_unused_points.h"
 #include "kernels/scars/suture.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

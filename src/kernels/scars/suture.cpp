@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/id.h"
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {

@@ -8,7 +8,7 @@
 #include "kernels/contacts/find_contacts.h"
 #include "kernels/sealing/extend_borders.h"
 #include "kernels/sealing/welded_soup.h"
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 #include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/union_find.h"
 

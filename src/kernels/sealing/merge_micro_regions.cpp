@@ -6,7 +6,7 @@
 #include "base/id.h"
 #include "base/option_field.h"
 #include "kernels/sealing/without_surfaces.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 
 namespace strataflow {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/sealing/without_surfaces.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {

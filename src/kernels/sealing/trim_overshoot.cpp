@@ -8,7 +8,7 @@
 #include "graph/parallel/parallel_map.h"
 #include "kernels/intersection/bounding_volume_tree.h"
 #include "kernels/sealing/welded_soup.h"
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {

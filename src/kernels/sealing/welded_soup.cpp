@@ -1,6 +1,6 @@
 #include "kernels/sealing/welded_soup.h"
 
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kernels/sealing/welded_soup.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

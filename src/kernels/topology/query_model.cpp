@@ -7,7 +7,7 @@
 
 #include "base/id.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
-#include "kernels/topology/shell_containment.h"
+#include "kernels/topology/building/shell_containment.h"
 #include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {

@@ -13,8 +13,8 @@
 #include "batch/report/report_html.h"
 #include "batch/report/report_json.h"
 #include "batch/run/run_files.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "support/command_line.h"
 #include "support/shapes.h"
 

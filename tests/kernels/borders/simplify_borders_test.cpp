@@ -7,7 +7,7 @@
 #include "kernels/borders/strips.h"
 #include "kernels/intersection/find_intersections.h"
 #include "kernels/reference_models/generate_reference_model.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "support/schedules.h"
 
 namespace strataflow {

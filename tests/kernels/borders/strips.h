@@ -4,7 +4,7 @@
 #include <set>
 #include <vector>
 
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 #include "model/triangle_soup.h"
 #include "support/shapes.h"
 

@@ -8,8 +8,8 @@
 #include "kernels/contacts/contact_mesh.h"
 #include "kernels/contacts/cut_constrained.h"
 #include "kernels/contacts/find_contacts.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "support/shapes.h"
 
 namespace strataflow::support {

@@ -11,8 +11,8 @@
 #include "io/read_input.h"
 #include "kernels/cutting/cut_surfaces.h"
 #include "kernels/reference_models/generate_reference_model.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 namespace {

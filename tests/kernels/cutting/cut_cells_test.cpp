@@ -13,8 +13,8 @@
 #include "kernels/cutting/cut_surfaces.h"
 #include "kernels/cutting/exact_reference.h"
 #include "kernels/cutting/surfaces.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "properties/rotation.h"
 #include "support/sanitized.h"
 

@@ -9,7 +9,7 @@
 #include "kernels/cutting/exact_reference.h"
 #include "kernels/cutting/surfaces.h"
 #include "kernels/reference_models/generate_reference_model.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 #include "support/sanitized.h"
 #include "support/schedules.h"
 

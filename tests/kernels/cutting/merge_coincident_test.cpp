@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "kernels/cutting/cut_surfaces.h"
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "support/shapes.h"
 
 namespace strataflow {

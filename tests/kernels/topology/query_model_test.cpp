@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/seed.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "support/shapes.h"
 
 namespace strataflow {

@@ -5,7 +5,7 @@
 
 #include "kernels/quality/analyze_volume_mesh.h"
 #include "kernels/quality/check_mesh_against_model.h"
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "kernels/volumes/tetrahedralize_model.h"
 #include "model/triangle_soup.h"
 

@@ -1,4 +1,4 @@
-#include "kernels/topology/build_regions.h"
+#include "kernels/topology/building/build_regions.h"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
-#include "kernels/topology/radial_order.h"
-#include "kernels/topology/shell_containment.h"
+#include "kernels/topology/building/radial_order.h"
+#include "kernels/topology/building/shell_containment.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {

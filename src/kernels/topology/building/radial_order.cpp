@@ -1,4 +1,4 @@
-#include "kernels/topology/radial_order.h"
+#include "kernels/topology/building/radial_order.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "kernels/topology/build_surfaces.h"
+#include "kernels/topology/building/build_surfaces.h"
 
 #include "base/id.h"
 

@@ -1,4 +1,4 @@
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "base/digest.h"
 #include "base/seed.h"
 #include "kernels/intersection/find_intersections.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "support/schedules.h"
 #include "support/shapes.h"
 

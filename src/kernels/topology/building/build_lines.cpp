@@ -1,4 +1,4 @@
-#include "kernels/topology/build_lines.h"
+#include "kernels/topology/building/build_lines.h"
 
 #include <algorithm>
 #include <span>

@@ -1,4 +1,4 @@
-#include "kernels/topology/radial_order.h"
+#include "kernels/topology/building/radial_order.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/seed.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
-#include "kernels/topology/build_regions.h"
+#include "kernels/topology/building/build_regions.h"
 
 namespace strataflow {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/validity/check_validity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "graph/parallel/parallel_map.h"
 #include "graph/parallel/sort_total_order.h"
 #include "kernels/intersection/find_intersections.h"
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 
 namespace strataflow {
 

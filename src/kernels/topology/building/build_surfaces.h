@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 #include "model/triangle_soup.h"
 
 namespace strataflow {

@@ -1,4 +1,4 @@
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 
 #include <algorithm>
 #include <array>
@@ -9,13 +9,13 @@
 #include <string>
 
 #include "base/id.h"
-#include "kernels/topology/build_lines.h"
-#include "kernels/topology/build_regions.h"
-#include "kernels/topology/build_surfaces.h"
-#include "kernels/topology/compare_records.h"
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/build_lines.h"
+#include "kernels/topology/building/build_regions.h"
+#include "kernels/topology/building/build_surfaces.h"
+#include "kernels/topology/validity/compare_records.h"
+#include "kernels/topology/building/edge_table.h"
 #include "kernels/topology/sorted_unique.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 

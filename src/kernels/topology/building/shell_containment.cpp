@@ -1,4 +1,4 @@
-#include "kernels/topology/shell_containment.h"
+#include "kernels/topology/building/shell_containment.h"
 
 #include "kernels/adapters/cgal/exact_predicates.h"
 

@@ -1,4 +1,4 @@
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 #include <array>
 #include <bit>

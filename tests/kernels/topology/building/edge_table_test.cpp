@@ -1,12 +1,12 @@
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 
 #include <gtest/gtest.h>
 
 #include "base/id.h"
-#include "kernels/topology/build_lines.h"
-#include "kernels/topology/build_surfaces.h"
+#include "kernels/topology/building/build_lines.h"
+#include "kernels/topology/building/build_surfaces.h"
 #include "kernels/topology/union_find.h"
-#include "kernels/topology/weld_points.h"
+#include "kernels/topology/building/weld_points.h"
 
 namespace strataflow {
 namespace {

@@ -1,4 +1,4 @@
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 
 #include <algorithm>
 

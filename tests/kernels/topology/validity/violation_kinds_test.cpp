@@ -10,8 +10,8 @@
 #include <set>
 #include <string>
 
-#include "kernels/topology/build_structural_model.h"
-#include "kernels/topology/check_validity.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/validity/check_validity.h"
 #include "support/shapes.h"
 
 namespace strataflow {

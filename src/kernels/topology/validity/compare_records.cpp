@@ -1,4 +1,4 @@
-#include "kernels/topology/compare_records.h"
+#include "kernels/topology/validity/compare_records.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "kernels/topology/edge_table.h"
+#include "kernels/topology/building/edge_table.h"
 #include "model/structural_model.h"
 #include "model/validity_report.h"
 

@@ -1,10 +1,10 @@
-#include "kernels/topology/shell_containment.h"
+#include "kernels/topology/building/shell_containment.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "support/shapes.h"
 
 namespace strataflow {

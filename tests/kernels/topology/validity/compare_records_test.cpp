@@ -1,10 +1,10 @@
-#include "kernels/topology/compare_records.h"
+#include "kernels/topology/validity/compare_records.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "kernels/topology/build_structural_model.h"
+#include "kernels/topology/building/build_structural_model.h"
 #include "support/shapes.h"
 
 namespace strataflow {
