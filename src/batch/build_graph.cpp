@@ -6,12 +6,16 @@
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
 #include "stages/combine_stage.h"
+#include "stages/complexity_stage.h"
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
 #include "stages/generate_stage.h"
 #include "stages/judge_surfaces_stage.h"
+#include "stages/optimise_sites_stage.h"
 #include "stages/read_stage.h"
+#include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
+#include "stages/restrict_voronoi_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
 #include "stages/tetrahedralize_stage.h"
@@ -55,7 +59,7 @@ Port<InputData> wire_surfaces(JobWirer& wirer, const Job& job, Port<InputData> s
   if (job.cut.scars.remove_scars) surfaces = wirer.add("remove_scars", RemoveScars{job.cut.scars}, surfaces);
   if (job.cut.judge.mode == "never") return surfaces;
   const Port<SealingNeed> need = wirer.add("judge_surfaces", JudgeSurfaces{job.cut.judge}, surfaces);
-  const Port<InputData> joined = wirer.add("cut_constrained", CutConstrained{job.seal.contacts()}, surfaces, need);
+  const Port<CutResult> joined = wirer.add("cut_constrained", CutConstrained{job.seal.contacts()}, surfaces, need);
   const Port<CutResult> cut = wirer.add("cut", Cut{job.cut.cut}, joined, need);
   const Port<CutResult> sealed = wirer.add("seal", Seal{job.seal.seal}, cut, need);
   wired.sealed = sealed;
@@ -71,16 +75,37 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
   const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
   const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
-  const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets");
+  const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" && job.makes("tets"));
+  const bool must_be_sealed =
+      (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") || remeshes;
   wired.model = model;
   const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
   wired.validity = validity;
+  const bool merges = remeshes && job.remesh.preserve == "resolution";
+  if (job.makes("voronoi") || merges) {
+    wired.sites = wirer.add("optimise_sites", OptimiseSites{job.remesh.sites}, model);
+    wired.diagram = wirer.add("restricted_voronoi", RestrictVoronoi{}, model, *wired.sites);
+  }
+  if (remeshes) {
+    wired.remeshed =
+        merges ? wirer.add("remesh_at_resolution", RemeshAtResolution{job.remesh}, model, validity, *wired.sites)
+               : wirer.add("remesh", Remesh{job.remesh}, model, validity);
+    wired.surfaces = wirer.add("build_surfaces", BuildSurfaces{}, *wired.remeshed);
+    wired.surfaces_validity = wirer.add("check_surfaces", CheckValidity{{true}}, *wired.surfaces);
+    wired.surfaces_report =
+        wirer.add("compare_surfaces", CompareSurfaces{{job.remesh.preserve == "all"}}, model, *wired.surfaces);
+    wired.surfaces_pictures = wirer.add("draw_surfaces", DrawModel{}, *wired.surfaces);
+  }
   if (job.makes("tets")) {
-    const Port<VolumeMesh> tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, model, validity);
+    const bool is_on_surfaces = job.output.from == "surfaces";
+    const Port<BuiltModel> hull = is_on_surfaces ? *wired.surfaces : model;
+    const Port<VolumeMesh> tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, hull,
+                                            is_on_surfaces ? *wired.surfaces_validity : validity);
     wired.tets = tets;
-    wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, model, tets);
+    wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, hull, tets);
     wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, tets);
   }
+  if (job.makes("complexity")) wired.complexity = wirer.add("complexity", MeasureComplexity{job.complexity}, model);
   // Last: pictures wait for idle threads rather than the other way round.
   wired.model_pictures = wirer.add("draw_model", DrawModel{}, model);
   return wired;
@@ -97,6 +122,14 @@ std::vector<NodeId> WiredJob::wanted() const {
   take(model);
   take(validity);
   take(model_pictures);
+  take(sites);
+  take(diagram);
+  take(remeshed);
+  take(surfaces);
+  take(surfaces_validity);
+  take(surfaces_report);
+  take(surfaces_pictures);
+  take(complexity);
   take(tets);
   take(tets_quality);
   take(tets_pictures);

@@ -6,11 +6,15 @@
 
 #include "batch/job_file/job.h"
 #include "graph/stage_graph.h"
+#include "kernels/complexity/measure_complexity.h"
 #include "kernels/quality/analyze_volume_mesh.h"
 #include "model/built_model.h"
 #include "model/cut_result.h"
+#include "model/restricted_diagram.h"
+#include "model/site_set.h"
 #include "model/volume_mesh.h"
 #include "stages/draw_stage.h"
+#include "stages/remesh_stage.h"
 
 namespace strataflow {
 
@@ -23,6 +27,14 @@ struct WiredJob {
   std::optional<Port<BuiltModel>> model;
   std::optional<Port<ValidityReport>> validity;
   std::optional<Port<Pictures>> model_pictures;
+  std::optional<Port<SiteSet>> sites;
+  std::optional<Port<RestrictedDiagram>> diagram;
+  std::optional<Port<RemeshedSurfaces>> remeshed;
+  std::optional<Port<BuiltModel>> surfaces;  ///< remeshed
+  std::optional<Port<ValidityReport>> surfaces_validity;
+  std::optional<Port<SurfacesReport>> surfaces_report;
+  std::optional<Port<Pictures>> surfaces_pictures;
+  std::optional<Port<ComplexityReport>> complexity;
   std::optional<Port<VolumeMesh>> tets;
   std::optional<Port<VolumeQualityReport>> tets_quality;
   std::optional<Port<Pictures>> tets_pictures;

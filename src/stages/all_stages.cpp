@@ -4,13 +4,17 @@
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
 #include "stages/combine_stage.h"
+#include "stages/complexity_stage.h"
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
 #include "stages/draw_stage.h"
 #include "stages/generate_stage.h"
 #include "stages/judge_surfaces_stage.h"
+#include "stages/optimise_sites_stage.h"
 #include "stages/read_stage.h"
+#include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
+#include "stages/restrict_voronoi_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
 #include "stages/tetrahedralize_stage.h"
@@ -46,6 +50,26 @@ struct DataName<VolumeMesh> {
   static constexpr std::string_view text = "volume mesh";
 };
 template <>
+struct DataName<SiteSet> {
+  static constexpr std::string_view text = "sites";
+};
+template <>
+struct DataName<RestrictedDiagram> {
+  static constexpr std::string_view text = "restricted Voronoi diagram";
+};
+template <>
+struct DataName<RemeshedSurfaces> {
+  static constexpr std::string_view text = "remeshed surfaces";
+};
+template <>
+struct DataName<SurfacesReport> {
+  static constexpr std::string_view text = "surface quality";
+};
+template <>
+struct DataName<ComplexityReport> {
+  static constexpr std::string_view text = "complexity";
+};
+template <>
 struct DataName<VolumeQualityReport> {
   static constexpr std::string_view text = "mesh quality";
 };
@@ -64,6 +88,14 @@ std::vector<StageDescription> all_stages() {
       describe_stage<BuildModel>("Finds corners, lines, surfaces and regions", ""),
       describe_stage<CheckValidity>("Judges the model by the validity rules", ""),
       describe_stage<DrawModel>("Draws the model by entity, by region, and with its regions moved apart", ""),
+      describe_stage<OptimiseSites>("Spreads sites over all surfaces as a centroidal Voronoi tessellation", "[remesh]"),
+      describe_stage<RestrictVoronoi>("Cuts the surfaces into the cells of the sites", ""),
+      describe_stage<Remesh>("Remeshes all surfaces at a chosen resolution, valid at every step", "[remesh]"),
+      describe_stage<RemeshAtResolution>("Remeshes all surfaces, what lies below the resolution merged", "[remesh]"),
+      describe_stage<BuildSurfaces>("Builds the model of the remeshed surfaces", ""),
+      describe_stage<CompareSurfaces>("Measures the remeshed surfaces and holds them against the model", ""),
+      describe_stage<MeasureComplexity>("Measures how complex the model is, as a whole and by neighbourhood",
+                                        "[complexity]"),
       describe_stage<Tetrahedralize>("Fills every region with tetrahedra that conform to all surfaces",
                                      "[tetrahedralize]"),
       describe_stage<CheckMesh>("Measures the mesh and holds it against the model", ""),

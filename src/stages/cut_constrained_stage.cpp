@@ -9,8 +9,9 @@
 
 namespace strataflow {
 
-Result<InputData> CutConstrained::operator()(const InputData& input, const SealingNeed& need, StageContext& context) const {
-  if (!need.is_needed) return input;
+Result<CutResult> CutConstrained::operator()(const InputData& input, const SealingNeed& need,
+                                             StageContext& context) const {
+  if (!need.is_needed) return CutResult{input.surfaces, {}, {}};
   const TriangleSoup& raw = input.surfaces;
   Box3 box;
   for (const Vec3& p : raw.points) box.take(p);
@@ -31,11 +32,15 @@ Result<InputData> CutConstrained::operator()(const InputData& input, const Seali
     const auto [place, is_new] = widest.try_emplace({border.entity, border.controller}, i);
     if (!is_new && contacts.gaps[i].max_gap_m > contacts.gaps[place->second].max_gap_m) place->second = i;
   }
-  for (const auto& [entities, i] : widest)
-    context.warn("contact_made", describe(raw, contacts.constraints.borders[i], contacts.gaps[i]) + "; led onto it");
+  CutResult output;
+  for (const auto& [entities, i] : widest) {
+    const Change& made = output.changes.emplace_back(
+        Change{"contact_made", describe(raw, contacts.constraints.borders[i], contacts.gaps[i]) + "; led onto it",
+               i < named->gaps.size() ? "asked for by name" : "it nearly touched"});
+    context.warn(made.kind, made.what + ": " + made.why);
+  }
   for (const std::string& failure : cut->failures) context.warn("contact_failed", failure);
-  InputData output = input;
-  output.surfaces = std::move(cut->soup);
+  output.soup = std::move(cut->soup);
   return output;
 }
 

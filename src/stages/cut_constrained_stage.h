@@ -6,6 +6,7 @@
 #include "base/option_field.h"
 #include "base/result.h"
 #include "graph/stage_context.h"
+#include "model/cut_result.h"
 #include "model/input_data.h"
 #include "stages/judge_surfaces_stage.h"
 
@@ -55,14 +56,15 @@ struct CutConstrainedOptions {
 };
 
 /// Leads borders that stop short of a surface, or overshoot it, onto it, so that both share the contact vertex for
-/// vertex (euler1999 §2.4); named contacts first. What was led how far is a warning (`contact_made`), as is what could
-/// not be (`contact_failed`). Surfaces that need no sealing pass unchanged. Fails with invalid_options for a contact that names nothing.
+/// vertex (euler1999 §2.4); named contacts first. What was led how far is a change and a warning (`contact_made`), what
+/// could not be a warning (`contact_failed`). Surfaces that need no sealing pass unchanged. Fails with invalid_options
+/// for a contact that names nothing.
 struct CutConstrained {
   static constexpr std::string_view name = "cut_constrained";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   CutConstrainedOptions options;
 
-  Result<InputData> operator()(const InputData& input, const SealingNeed& need, StageContext& context) const;
+  Result<CutResult> operator()(const InputData& input, const SealingNeed& need, StageContext& context) const;
 };
 
 }  // namespace strataflow

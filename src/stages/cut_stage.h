@@ -7,7 +7,6 @@
 #include "base/result.h"
 #include "graph/stage_context.h"
 #include "model/cut_result.h"
-#include "model/input_data.h"
 #include "stages/judge_surfaces_stage.h"
 
 namespace strataflow {
@@ -17,6 +16,7 @@ struct CutStageOptions {
   std::vector<std::string> cutting;
   double tolerance_m = 0;
   double intersection_tolerance_ratio = 1e-9;
+  bool mark_inserted = false;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     visit(cut, OptionField{.name = "cut", .description = "Surfaces that are cut, by name; empty: all"});
@@ -31,17 +31,21 @@ struct CutStageOptions {
                                      "or to each other, become one",
                       .minimum = 0,
                       .maximum = 1e-3});
+    visit(mark_inserted, OptionField{.name = "mark_inserted",
+                                     .description = "Give the points that cutting makes the value 1 of a point "
+                                                    "property inserted_by_cut, all others 0: remove_scars can then "
+                                                    "undo this cut"});
   }
 };
 
-/// Cuts surfaces along everything they share, exactly (euler1999 §2.3, §2.6). Surfaces that need no
-/// cutting pass unchanged.
+/// Cuts surfaces along everything they share, exactly (euler1999 §2.3, §2.6), once contacts are made, whose changes it
+/// hands on. Surfaces that need no cutting pass unchanged.
 struct Cut {
   static constexpr std::string_view name = "cut";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   CutStageOptions options;
 
-  Result<CutResult> operator()(const InputData& input, const SealingNeed& need, StageContext& context) const;
+  Result<CutResult> operator()(const CutResult& joined, const SealingNeed& need, StageContext& context) const;
 };
 
 }  // namespace strataflow

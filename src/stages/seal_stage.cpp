@@ -5,6 +5,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "kernels/sealing/find_doubts.h"
 #include "kernels/sealing/find_leaks.h"
 #include "kernels/sealing/seal_surfaces.h"
 
@@ -33,24 +34,40 @@ Result<CutResult> Seal::operator()(const CutResult& cut, const SealingNeed& need
   const double distance = sealing_distance_m(cut.soup, sealing);
   Result<CutResult> sealed = seal_cut_surfaces(cut, {}, sealing);
   if (!sealed) return sealed;
-  for (std::size_t i = cut.changes.size(); i < sealed->changes.size(); ++i)
-    context.warn(sealed->changes[i].kind, sealed->changes[i].what + ": " + sealed->changes[i].why);
-
+  std::vector<Doubt> doubts;
+  for (std::size_t i = cut.changes.size(); i < sealed->changes.size(); ++i) {
+    const Change& change = sealed->changes[i];
+    context.warn(change.kind, change.what + ": " + change.why);
+    if (change.kind == "coincident_patches")
+      doubts.push_back({change.what + " since sealing moved their borders",
+                        "cut back what overshoots there, or name the contacts they should end on"});
+  }
   const std::vector<Leak> leaks = find_leaks(sealed->soup, distance, options.leak_search_ratio * distance);
-  std::string named;
+  const Result<std::vector<Doubt>> found =
+      find_doubts(sealed->soup, distance, contacts_with_distance(options.contacts));
+  if (!found) return found.failure();
+  doubts.insert(doubts.end(), found->begin(), found->end());
+  std::string named, doubted;
   double widest = 0;
   for (const Leak& leak : leaks) {
     context.warn("leak", leak.text);
     named += "\n  " + leak.text;
     widest = std::max(widest, leak.gap_m);
   }
-  if (leaks.empty() || options.on_leak == "warn") return sealed;
+  for (const Doubt& doubt : doubts) {
+    context.warn("doubt", doubt.text);
+    doubted += "\n  " + doubt.text;
+  }
+  if ((leaks.empty() && doubts.empty()) || options.on_leak == "warn") return sealed;
+  const std::string meant = ", or seal.on_leak = \"warn\" where that is meant";
+  if (leaks.empty())
+    return Failure{FailureCode::invalid_input, "sealed, but in doubt:" + doubted, doubts.front().remedy + meant};
   const auto name_of = [&](std::uint32_t entity) { return sealed->soup.entities[entity].name; };
-  return Failure{FailureCode::invalid_input, "the surfaces leak:" + named,
+  return Failure{FailureCode::invalid_input,
+                 "the surfaces leak:" + named + (doubts.empty() ? "" : "\nand are in doubt:" + doubted),
                  "set seal.distance_m to at least " + readable(widest) + ", or seal.contacts = [\"" +
                      name_of(leaks.front().entity) + " -> " + name_of(leaks.front().onto) + " within " +
-                     readable(leaks.front().gap_m) +
-                     "\"] and so on, or seal.on_leak = \"warn\" where they are meant to end"};
+                     readable(leaks.front().gap_m) + "\"] and so on" + meant};
 }
 
 }  // namespace strataflow

@@ -48,7 +48,8 @@ struct SealStageOptions {
                               .maximum = 20});
     visit(on_leak, OptionField{.name = "on_leak",
                                .description = "What a border means that stops short of a surface by more than the "
-                                              "distance, all its length: fail, or warn and leave it",
+                                              "distance, all its length, a piece that juts out past a contact, or a "
+                                              "sliver that sealing made: fail, or warn and leave it",
                                .words = {"fail", "warn"}});
     visit(leak_search_ratio, OptionField{.name = "leak_search_ratio",
                                          .description = "How far to look for such borders, in sealing distances",
@@ -57,11 +58,12 @@ struct SealStageOptions {
 };
 
 /// Trims what juts out of cut surfaces, extends borders that still stop short and cuts again, merges micro-regions
-/// (euler1999 §2.11.4). Surfaces that need no sealing pass unchanged. Fails with invalid_input, naming every leak, when
-/// a border still stops short of a surface.
+/// (euler1999 §2.11.4). Surfaces that need no sealing pass unchanged. Fails with invalid_input, naming all of it, when
+/// a border still stops short of a surface (leaks), or where sealing made or left what nobody can have meant: surfaces
+/// that came to lie on each other, juts, slivers (find_doubts).
 struct Seal {
   static constexpr std::string_view name = "seal";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   SealStageOptions options;
 
   Result<CutResult> operator()(const CutResult& cut, const SealingNeed& need, StageContext& context) const;

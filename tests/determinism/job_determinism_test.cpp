@@ -15,7 +15,7 @@ using Files = std::vector<std::pair<std::string, std::string>>;
 /// Of the shuffled executor; one takes 0.5 s, under the address sanitizer 7 s.
 constexpr std::uint64_t shuffled_schedules = support::sanitized ? 5 : 50;
 
-/// Jobs that share stages, one of them a sweep, and one of raw surfaces.
+/// Jobs that share stages, two of them sweeps, one of raw surfaces, and two that remesh.
 class JobDeterminism : public testing::Test {
  protected:
   void SetUp() override {
@@ -28,7 +28,12 @@ class JobDeterminism : public testing::Test {
     support::write_text(scratch_.path() / "raw.toml",
                         "[[input]]\nmodel = \"A6\"\nresolution_m = 110.0\nraw_ratio = -0.01\n"
                         "[output]\nproducts = [\"model\"]\n[cut]\nmode = \"always\"\n[simplify]\nborders = true\n");
-    for (const char* name : {"a.toml", "b.toml", "raw.toml"}) {
+    support::write_text(scratch_.path() / "remesh.toml",
+                        "[[input]]\nmodel = \"C\"\nresolution_m = 110.0\n"
+                        "[output]\nproducts = [\"voronoi\", \"surfaces\", \"complexity\"]\n"
+                        "[remesh]\nsites = 300\niterations = 10\n[complexity]\ncells = [50]\n"
+                        "[sweep]\n\"remesh.preserve\" = [\"all\", \"resolution\"]\n");
+    for (const char* name : {"a.toml", "b.toml", "raw.toml", "remesh.toml"}) {
       const Result<std::vector<Job>> read = read_jobs(scratch_.path() / name);
       ASSERT_TRUE(read) << describe(read.failure());
       jobs_.insert(jobs_.end(), read->begin(), read->end());
@@ -57,7 +62,7 @@ TEST_F(JobDeterminism, holds_for_every_number_of_threads) {
   RunOptions serial;
   serial.executor = ExecutorKind::serial;
   const std::vector<Files> expected = run(serial);
-  ASSERT_EQ(expected.size(), 4u);
+  ASSERT_EQ(expected.size(), 6u);
   ASSERT_EQ(expected[0].size(), 6u);  // report.json, report.html, job.toml and three meshes
   for (const int threads : {1, 2, 3, 8}) {
     RunOptions options;

@@ -1,5 +1,8 @@
 // Raw fault models and fracture networks, cut: nothing crosses any more, every name is still there.
 #include "kernels/cutting/cut_surfaces.h"
+
+#include <limits>
+
 #include "kernels/quality/check_mesh_against_model.h"
 #include "kernels/volumes/tetrahedralize_model.h"
 #include "properties/entity_names.h"
@@ -70,6 +73,8 @@ double add_box_around(TriangleSoup& soup) {
   const auto first = static_cast<std::uint32_t>(soup.points.size());
   for (int corner = 0; corner < 8; ++corner)
     soup.points.push_back({corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z});
+  for (PointProperty& property : soup.properties)
+    property.values.resize(soup.points.size() * property.width, std::numeric_limits<double>::quiet_NaN());
   const auto patch = static_cast<std::uint32_t>(soup.patch_entity.size());
   soup.patch_entity.push_back(static_cast<std::uint32_t>(soup.entities.size()));
   soup.entities.push_back({"box", Role::boundary});

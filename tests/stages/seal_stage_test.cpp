@@ -14,10 +14,8 @@ using testing::HasSubstr;
 const SealingNeed needed{true, "asked for"};
 
 CutResult cut(double gap) {
-  InputData data;
-  data.surfaces = support::raw_box(gap, 3);
   StageContext context;
-  return *Cut{}(data, needed, context);
+  return *Cut{}({support::raw_box(gap, 3), {}, {}}, needed, context);
 }
 
 std::vector<std::string> kinds(const StageContext& context) {
@@ -53,6 +51,27 @@ TEST(SealStage, the_remedy_is_one) {
   const Result<CutResult> sealed = stage(cut(0.5), needed, context);
   ASSERT_TRUE(sealed) << describe(sealed.failure());
   EXPECT_EQ(support::region_volumes(sealed->soup).size(), 4u);
+}
+
+TEST(SealStage, a_sealed_model_in_doubt_fails_too) {
+  TriangleSoup soup = support::box({0, 0, 0}, {10, 10, 10});
+  support::add_grid(soup, support::add_patch(soup, "F1", Role::fault), 2, 2,
+                    [](double u, double v) { return Vec3{5, 10 * u, 10 * v}; });
+  for (const auto& [name, z] : {std::pair{"H1", 5.0}, {"H2", 5.05}})
+    support::add_grid(soup, support::add_patch(soup, name, Role::horizon), 2, 2,
+                      [z = z](double u, double v) { return Vec3{5 * u, 10 * v, z}; });
+  StageContext context;
+  const Result<CutResult> thin = Cut{}({soup, {}, {}}, needed, context);
+  Seal stage;
+  stage.options.distance_m = 1.4;
+  stage.options.micro_region_volume_m3 = 0;
+  const Result<CutResult> sealed = stage(*thin, needed, context);
+  ASSERT_FALSE(sealed);
+  EXPECT_THAT(sealed.failure().what, HasSubstr("in doubt:\n  a sliver of 2.5 m3 between box, F1, H1, H2"));
+  EXPECT_THAT(sealed.failure().remedy, HasSubstr("seal.micro_region_volume_m3 = 2.75"));
+  EXPECT_THAT(kinds(context), testing::Contains("doubt"));
+  stage.options.micro_region_volume_m3 = 2.75;
+  EXPECT_TRUE(stage(*thin, needed, context));
 }
 
 TEST(SealStage, leaks_that_are_meant_are_a_warning) {

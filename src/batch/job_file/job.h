@@ -9,11 +9,13 @@
 #include "base/option_field.h"
 #include "base/result.h"
 #include "batch/options/job_value.h"
+#include "kernels/complexity/measure_complexity.h"
 #include "kernels/volumes/tetrahedralize_model.h"
 #include "model/geology.h"
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
 #include "stages/judge_surfaces_stage.h"
+#include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
@@ -120,21 +122,7 @@ struct SealOptions {
   }
 };
 
-/// [remesh] and [hex]: the keys a job may already carry for the products surfaces and hexes of later versions.
-struct LaterRemeshOptions {
-  std::optional<std::int64_t> sites;
-  std::optional<double> target_edge_length_m;
-  template <class Visitor>
-  void visit_fields(Visitor& visit) {
-    visit(sites,
-          OptionField{
-              .name = "sites", .description = "Number of sites (product surfaces, not in this version)", .minimum = 1});
-    visit(target_edge_length_m, OptionField{.name = "target_edge_length_m",
-                                            .description = "Instead of sites (product surfaces, not in this version)",
-                                            .minimum = 0,
-                                            .exclusive_minimum = true});
-  }
-};
+/// [hex]: the keys a job may already carry for the product hexes of later versions.
 struct LaterHexOptions {
   std::optional<double> edge_length_m;
   std::optional<bool> deck;
@@ -160,9 +148,10 @@ struct Job {
   SealOptions seal;
   SimplifyBordersStageOptions simplify;
   TetrahedralizeOptions tetrahedralize;
-  LaterRemeshOptions remesh;
+  RemeshStageOptions remesh;
   LaterHexOptions hex;
-  NoOptions quad, hybrid, complexity;  ///< sections of later versions, without keys so far
+  ComplexityOptions complexity;
+  NoOptions quad, hybrid;  ///< sections of later versions, without keys so far
 
   /// Calls visit(section name, options) for every section of options.
   template <class Visitor>

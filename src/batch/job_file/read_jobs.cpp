@@ -102,6 +102,25 @@ void read_inputs(const JobValue& root, Job& job, Problems& problems) {
   }
 }
 
+void check_remesh(const JobValue& root, const RemeshStageOptions& remesh, bool makes_surfaces, Problems& problems) {
+  const SiteOptions& sites = remesh.sites;
+  if (sites.sites && sites.target_edge_length_m)
+    add(problems, origin_of(root, "remesh", "sites"), "[remesh] has both sites and target_edge_length_m", "keep one");
+  if ((sites.density == "property") != sites.density_property.has_value())
+    add(problems, origin_of(root, "remesh", "density"),
+        "density = \"property\" and density_property come together or not at all",
+        "name a property of the input's points in density_property, with density = \"property\"");
+  if (!makes_surfaces) return;
+  if (remesh.preserve == "resolution") return;
+  if (remesh.d_resolution_m)
+    add(problems, origin_of(root, "remesh", "d_resolution_m"),
+        "d_resolution_m merges what preserve = \"all\" is to keep", "remove one of them");
+  if (sites.density != "uniform")
+    add(problems, origin_of(root, "remesh", "density"),
+        "surfaces that preserve all follow edge lengths, not densities",
+        "use entity_edge_length_m, or preserve = \"resolution\"");
+}
+
 void check_products(const JobValue& root, const Job& job, Problems& problems) {
   const std::string origin = origin_of(root, "output", "products");
   if (job.output.products.empty())
@@ -110,21 +129,18 @@ void check_products(const JobValue& root, const Job& job, Problems& problems) {
   for (const std::string& product : job.output.products) {
     if (!seen.insert(product).second)
       add(problems, origin, "product '" + product + "' is named twice", "name it once");
-    else if (!contains({"model", "tets"}, product))
-      add(problems, origin, "product '" + product + "' is not available in this version", "available: model, tets");
+    else if (!contains({"model", "voronoi", "surfaces", "tets", "complexity"}, product))
+      add(problems, origin, "product '" + product + "' is not available in this version",
+          "available: model, voronoi, surfaces, tets, complexity");
   }
-  if (job.output.from == "surfaces" && !job.makes("hybrid"))
-    add(problems, origin_of(root, "output", "from"), "from = \"surfaces\" is not available in this version",
-        "remove it, or write from = \"model\"");
   if (job.output.from == "model" && job.makes("hybrid"))
     add(problems, origin_of(root, "output", "from"), "hybrid meshes are always built on the remeshed surfaces",
         "write from = \"surfaces\", or remove it");
-  if (job.writes("obj") && !job.makes("model"))
+  if (job.writes("obj") && !job.makes("model") && !job.makes("surfaces"))
     add(problems, origin_of(root, "output", "formats"),
-        "format 'obj' is for the product 'model', which this job does not make",
-        "remove it from formats, or add the product");
-  if (job.remesh.sites && job.remesh.target_edge_length_m)
-    add(problems, origin_of(root, "remesh", "sites"), "[remesh] has both sites and target_edge_length_m", "keep one");
+        "format 'obj' is for the products 'model' and 'surfaces', which this job does not make",
+        "remove it from formats, or add a product");
+  check_remesh(root, job.remesh, job.makes("surfaces") || job.output.from == "surfaces", problems);
   if (job.writes("grdecl") && !job.makes("hexes"))
     add(problems, origin_of(root, "output", "formats"),
         "format 'grdecl' is for the product 'hexes', which this job does not make", "remove it from formats");

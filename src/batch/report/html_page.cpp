@@ -1,6 +1,7 @@
 #include "batch/report/html_page.h"
 
 #include <algorithm>
+#include <limits>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -106,6 +107,31 @@ std::string svg_histogram(const Distribution& distribution) {
   return svg + "<figcaption>" + escaped_html(distribution.name) + ": " + readable_number(distribution.minimum) + " … " +
          readable_number(distribution.maximum) + ", mean " + readable_number(distribution.mean()) + ", " +
          std::to_string(distribution.count) + " values</figcaption></figure>\n";
+}
+
+std::string svg_curve(const std::vector<double>& values, std::string_view caption) {
+  constexpr double width = 300, height = 110;
+  double low = std::numeric_limits<double>::infinity(), high = 0;
+  for (const double value : values)
+    if (value > 0) {
+      low = std::min(low, value);
+      high = std::max(high, value);
+    }
+  std::string svg = "<figure><svg width=\"320\" height=\"140\" role=\"img\"><g transform=\"translate(10,5)\">\n";
+  if (high > 0) {
+    const double range = high > low ? std::log(high / low) : 1;
+    const double step = values.size() > 1 ? width / static_cast<double>(values.size() - 1) : 0;
+    svg += "<polyline fill=\"none\" stroke=\"#4878a8\" points=\"";
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (values[i] > 0)
+        svg += formatted("%.2f", step * static_cast<double>(i)) + "," +
+               formatted("%.2f", height * (1 - std::log(values[i] / low) / range)) + " ";
+    svg += "\"/>\n<text x=\"300\" y=\"10\" font-size=\"11\" text-anchor=\"end\">" + readable_number(high) +
+           "</text><text x=\"0\" y=\"108\" font-size=\"11\">" + readable_number(low) + "</text>";
+  }
+  svg += "<line x1=\"0\" y1=\"110\" x2=\"300\" y2=\"110\" stroke=\"#888\"/></g></svg>\n";
+  return svg + "<figcaption>" + escaped_html(caption) + ", " + std::to_string(values.size()) +
+         " steps</figcaption></figure>\n";
 }
 
 std::string html_picture(const std::vector<std::byte>& png, std::string_view caption) {

@@ -20,6 +20,9 @@ std::string html_table(const std::vector<std::string>& header, const std::vector
 /// A histogram as inline SVG, with its extremes and mean below.
 std::string svg_histogram(const Distribution& distribution);
 
+/// A curve through positive values, one per step, on a logarithmic scale, as inline SVG.
+std::string svg_curve(const std::vector<double>& values, std::string_view caption);
+
 /// A PNG picture inside the page, with a caption.
 std::string html_picture(const std::vector<std::byte>& png, std::string_view caption);
 

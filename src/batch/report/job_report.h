@@ -8,11 +8,15 @@
 #include "base/warning.h"
 #include "batch/job_file/job.h"
 #include "graph/run_graph.h"
+#include "kernels/complexity/measure_complexity.h"
 #include "kernels/quality/analyze_volume_mesh.h"
 #include "model/built_model.h"
 #include "model/cut_result.h"
+#include "model/restricted_diagram.h"
+#include "model/site_set.h"
 #include "model/volume_mesh.h"
 #include "stages/draw_stage.h"
+#include "stages/remesh_stage.h"
 
 namespace strataflow {
 
@@ -34,6 +38,14 @@ struct JobReport {
   std::shared_ptr<const BuiltModel> model;
   std::shared_ptr<const ValidityReport> validity;
   std::shared_ptr<const Pictures> model_pictures;
+  std::shared_ptr<const SiteSet> sites;
+  std::shared_ptr<const RestrictedDiagram> diagram;
+  std::shared_ptr<const RemeshedSurfaces> remeshed;
+  std::shared_ptr<const BuiltModel> surfaces;
+  std::shared_ptr<const ValidityReport> surfaces_validity;
+  std::shared_ptr<const SurfacesReport> surfaces_report;
+  std::shared_ptr<const Pictures> surfaces_pictures;
+  std::shared_ptr<const ComplexityReport> complexity;
   std::shared_ptr<const VolumeMesh> tets;
   std::shared_ptr<const VolumeQualityReport> tets_quality;
   std::shared_ptr<const Pictures> tets_pictures;

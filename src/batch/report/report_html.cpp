@@ -103,6 +103,112 @@ std::string cut_section(const CutResult& result) {
          changes_table(result.changes);
 }
 
+std::string voronoi_section(const SiteSet& sites, const RestrictedDiagram& diagram) {
+  std::vector<double> energies;
+  for (const CvtStep& step : sites.lloyd_steps) energies.push_back(step.energy);
+  for (const CvtStep& step : sites.newton_steps) energies.push_back(step.energy);
+  return "<h2>Restricted Voronoi diagram</h2>\n" +
+         html_table({}, {{"sites", count(sites.sites.size())},
+                         {"of these on the box", count(sites.sites_on_box)},
+                         {"edge length, m", readable_number(sites.edge_length_m)},
+                         {"pieces of cells", count(diagram.piece_count())},
+                         {"diagrams computed", count(sites.evaluations)},
+                         {"stopped by", sites.stopped_by}}) +
+         "<div class=\"row\">\n" + svg_curve(energies, "energy of the tessellation, m⁴") + "</div>\n";
+}
+
+std::string surfaces_section(const RemeshedSurfaces& remeshed, const ValidityReport& validity,
+                             const SurfacesReport& report) {
+  const SurfaceMeshReport &before = report.before, &after = report.after;
+  const auto row = [](const std::string& what, const std::string& was, const std::string& is) {
+    return std::vector<std::string>{what, was, is};
+  };
+  const auto share = [](const SurfaceMeshReport& mesh) {
+    return readable_number(100 * mesh.triangles.angles_below_30_ratio);
+  };
+  std::string html = "<h2>Remeshed surfaces</h2>\n";
+  html += html_table(
+      {"", "before", "after"},
+      {row("corners", count(before.corners), count(after.corners)), row("lines", count(before.lines), count(after.lines)),
+       row("surfaces", count(before.surfaces), count(after.surfaces)),
+       row("regions", count(before.regions), count(after.regions)),
+       row("vertices", count(before.vertices), count(after.vertices)),
+       row("triangles", count(before.triangles.triangles), count(after.triangles.triangles)),
+       row("smallest angle, °", readable_number(before.triangles.min_angle_deg),
+           readable_number(after.triangles.min_angle_deg)),
+       row("angles below 30°, %", share(before), share(after)),
+       row("mean quality", readable_number(before.triangles.mean_quality),
+           readable_number(after.triangles.mean_quality)),
+       row("area, m²", readable_number(before.triangles.area_m2), readable_number(after.triangles.area_m2))});
+  html += html_table({}, {{"sites asked for, without the box", count(remeshed.sites_asked)},
+                          {"edge length, m", readable_number(remeshed.edge_length_m)},
+                          {"Hausdorff distance, m", readable_number(report.hausdorff.distance_m())},
+                          {"the same, % of the diagonal", readable_number(100 * report.hausdorff.ratio())},
+                          {"intersecting triangle pairs", count(validity.intersecting_triangle_pairs)},
+                          {"triangles that keep an angle below 5°", count(remeshed.kept.size())}});
+  html += "<div class=\"row\">\n" + svg_histogram(after.triangles.angle_deg) +
+          svg_histogram(after.triangles.quality) + "</div>\n";
+  std::vector<Change> changes = remeshed.changes;
+  changes.insert(changes.end(), report.changes.begin(), report.changes.end());
+  return html + changes_table(changes);
+}
+
+std::string complexity_section(const ComplexityReport& report) {
+  const ElementCounts& counts = report.counts;
+  const GeometricComplexity& geometric = report.geometric;
+  const SizeVariation& variation = report.size_variation;
+  std::string html =
+      "<h2>Complexity</h2>\n<p class=\"note\">Without the box. Too small, thin: below an edge length of " +
+      readable_number(geometric.edge_length_m) + " m; sharp: below " + readable_number(geometric.angle_deg) +
+      "°.</p>\n";
+  Rows rows;
+  const auto add_row = [&](const char* name, std::uint64_t number, ElementType type, double size_variation) {
+    const ElementComplexity sum = geometric.sum_of(type);
+    rows.push_back({name, count(number), readable_number(sum.too_small), readable_number(sum.shape),
+                    readable_number(sum.thin), readable_number(sum.sharp), readable_number(sum.total()),
+                    readable_number(size_variation)});
+  };
+  add_row("regions", counts.regions, ElementType::region, variation.regions);
+  add_row("surfaces", counts.surfaces, ElementType::surface, variation.surfaces);
+  add_row("lines", counts.lines, ElementType::line, variation.lines);
+  rows.push_back({"corners", count(counts.corners), "", "", "", "", "", ""});
+  rows.push_back({"all", count(counts.total()), "", "", "", "", readable_number(geometric.total()),
+                  readable_number(variation.total())});
+  html += html_table({"elements", "number", "too small", "shape", "thin", "sharp", "sum", "variation of sizes"}, rows);
+  Rows cells;
+  for (const CellStatistics& one : report.cells)
+    cells.push_back({count(one.cells), readable_number(one.resolution_m), count(one.q10), count(one.q50),
+                     count(one.q90), count(one.max), readable_number(one.mean), readable_number(one.cv),
+                     count(one.above_6), readable_number(one.needed_edge_m)});
+  html += "<h3>Elements in " + report.neighbourhoods + ", counted by " + report.count_by + "</h3>\n" +
+          html_table({"number", "width, m", "Q10", "Q50", "Q90", "max", "mean", "variation", "above 6",
+                      "edge that 99 % would do with, m"},
+                     cells);
+  if (!report.fields.empty() && !report.cells.empty()) {
+    Distribution spread("elements in each of the last", 0.5, report.cells.back().max + 0.5, report.cells.back().max);
+    for (const double elements : report.fields.front().values) spread.add(elements);
+    html += svg_histogram(spread);
+  }
+  Rows faults;
+  for (const FaultMeasures& fault : report.faults.faults)
+    faults.push_back({fault.name, readable_number(fault.strike_deg), readable_number(fault.dip_deg),
+                      count(fault.layers_affected), readable_number(fault.throw_m.q50),
+                      readable_number(fault.throw_m.maximum), readable_number(fault.horizon_angle_deg.minimum),
+                      count(fault.faults.size()), readable_number(fault.free_border_m)});
+  if (!faults.empty())
+    html += "<h3>Faults</h3>\n" + html_table({"fault", "strike, °", "dip, °", "layers affected", "median throw, m",
+                                              "largest throw, m", "smallest angle with a horizon, °", "faults met",
+                                              "free border, m"},
+                                             faults);
+  Rows needs;
+  for (const RegionNeed& need : report.needs)
+    needs.push_back({need.name, readable_number(need.volume_m3),
+                     need.thinnest_m < geometric.edge_length_m ? readable_number(need.thinnest_m) : "",
+                     readable_number(need.needed_edge_m)});
+  return html + "<h3>What regions need</h3>\n" +
+         html_table({"region", "volume, m³", "thinnest, m", "edge length, m"}, needs);
+}
+
 std::string tets_section(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
   std::string html = "<h2>Tetrahedra</h2>\n";
   html += html_table({}, {{"cells", count(quality.cells)},
@@ -133,6 +239,11 @@ std::string report_html(const JobReport& report) {
   if (report.sealed) body += cut_section(*report.sealed);
   if (report.model && report.validity)
     body += model_section(*report.model, *report.validity) + pictures_html(report.model_pictures);
+  if (report.sites && report.diagram) body += voronoi_section(*report.sites, *report.diagram);
+  if (report.remeshed && report.surfaces_validity && report.surfaces_report)
+    body += surfaces_section(*report.remeshed, *report.surfaces_validity, *report.surfaces_report) +
+            pictures_html(report.surfaces_pictures);
+  if (report.complexity) body += complexity_section(*report.complexity);
   if (report.tets && report.tets_quality)
     body += tets_section(*report.tets, *report.tets_quality) + pictures_html(report.tets_pictures);
   body += stages_section(report);

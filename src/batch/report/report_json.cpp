@@ -145,6 +145,213 @@ Json cut_block(const CutResult& result) {
           {"changes", json_of(result.changes)}};
 }
 
+Json steps_json(const std::vector<CvtStep>& steps) {
+  Json list = Json::array();
+  for (const CvtStep& step : steps) list.push_back({{"energy", step.energy}, {"gradient_norm", step.gradient_norm}});
+  return list;
+}
+
+Json voronoi_block(const SiteSet& sites, const RestrictedDiagram& diagram) {
+  return {{"sites", sites.sites.size()},
+          {"sites_on_box", sites.sites_on_box},
+          {"edge_length_m", sites.edge_length_m},
+          {"line_attraction", sites.line_attraction},
+          {"evaluations", sites.evaluations},
+          {"replanted_sites", sites.replanted},
+          {"stopped_by", sites.stopped_by},
+          {"pieces", diagram.piece_count()},
+          {"lloyd_steps", steps_json(sites.lloyd_steps)},
+          {"newton_steps", steps_json(sites.newton_steps)}};
+}
+
+Json distance_json(const HausdorffDistance& distance) {
+  return {{"ratio", distance.ratio()},
+          {"distance_m", distance.distance_m()},
+          {"bound_m", distance.bound_m()},
+          {"from_input_m", distance.forward.distance_m},
+          {"to_input_m", distance.backward.distance_m},
+          {"samples", distance.forward.samples + distance.backward.samples}};
+}
+
+Json topology_json(const TopologyInvariants& topology) {
+  return {{"euler", topology.euler()},
+          {"betti", {topology.components, topology.independent_loops, topology.cavities}},
+          {"borders", topology.borders}};
+}
+
+Json contacts_json(const std::vector<Contact>& contacts) {
+  Json list = Json::array();
+  for (const Contact& contact : contacts)
+    list.push_back({{"name", contact.name},
+                    {"valence", contact.valence},
+                    {"lines", contact.lines},
+                    {"edges", contact.edges},
+                    {"length_m", contact.length_m}});
+  return list;
+}
+
+Json mesh_json(const SurfaceMeshReport& mesh) {
+  return {{"corners", mesh.corners},
+          {"lines", mesh.lines},
+          {"surfaces", mesh.surfaces},
+          {"regions", mesh.regions},
+          {"vertices", mesh.vertices},
+          {"triangles", mesh.triangles.triangles},
+          {"min_angle_deg", mesh.triangles.min_angle_deg},
+          {"angles_below_30_ratio", mesh.triangles.angles_below_30_ratio},
+          {"mean_quality", mesh.triangles.mean_quality},
+          {"area_m2", mesh.triangles.area_m2},
+          {"bbox_diagonal_m", mesh.diagonal_m},
+          {"edge_valences", mesh.edge_valences},
+          {"contacts", contacts_json(mesh.contacts)}};
+}
+
+Json surfaces_block(const RemeshedSurfaces& remeshed, const BuiltModel& built, const ValidityReport& validity,
+                    const SurfacesReport& report) {
+  Json json = mesh_json(report.after);
+  json["sites"] = remeshed.sites_asked;
+  json["edge_length_m"] = remeshed.edge_length_m;
+  json["added_sites"] = remeshed.added_sites;
+  json["merged_points"] = remeshed.merged_points;
+  json["ball_property_failures"] = remeshed.ball_failures;
+  json["sealed"] = is_sealed(built.model, validity);
+  json["intersecting_triangle_pairs"] = validity.intersecting_triangle_pairs;
+  json["hausdorff_ratio"] = report.hausdorff.ratio();
+  json["hausdorff"] = distance_json(report.hausdorff);
+  Json by_entity = Json::array();
+  for (const EntityDistance& entity : report.by_entity) {
+    Json one = distance_json(entity.distance);
+    one["entity"] = entity.name;
+    by_entity.push_back(std::move(one));
+  }
+  json["hausdorff_by_entity"] = std::move(by_entity);
+  json["topology"] = {{"before", topology_json(report.topology_before.whole)},
+                      {"after", topology_json(report.topology_after.whole)}};
+  json["before"] = mesh_json(report.before);
+  Json volumes = Json::array();
+  for (const Region& region : built.model.regions) volumes.push_back(region.volume_m3);
+  json["volumes_m3"] = std::move(volumes);
+  json["steps"] = {{"splits", remeshed.splits},
+                   {"collapses", remeshed.collapses},
+                   {"flips", remeshed.flips},
+                   {"moves", remeshed.moves}};
+  Json kept = Json::array();
+  for (const KeptTriangle& triangle : remeshed.kept) {
+    Vec3 middle;
+    for (const std::uint32_t corner : remeshed.soup.triangles[triangle.triangle])
+      middle = middle + (1.0 / 3) * remeshed.soup.points[corner];
+    middle = middle + remeshed.soup.local_origin;
+    kept.push_back({{"where_m", {middle.x, middle.y, middle.z}},
+                    {"smallest_angle_deg", triangle.smallest_angle_deg},
+                    {"why", triangle.touches_small_feature ? "small feature of the input" : "no valid step mends it"}});
+  }
+  json["triangles_below_5_deg"] = std::move(kept);
+  std::vector<Change> changes = remeshed.changes;
+  changes.insert(changes.end(), report.changes.begin(), report.changes.end());
+  json["changes"] = json_of(changes);
+  return json;
+}
+
+Json parts_json(const ElementComplexity& sum) {
+  return {{"too_small", sum.too_small},
+          {"shape", sum.shape},
+          {"thin", sum.thin},
+          {"sharp", sum.sharp},
+          {"total", sum.total()}};
+}
+
+Json geometric_json(const GeometricComplexity& geometric) {
+  Json elements = Json::array();
+  for (const ElementComplexity& one : geometric.elements) {
+    Json json = {{"type", one.type == ElementType::region    ? "region"
+                          : one.type == ElementType::surface ? "surface"
+                                                             : "line"},
+                 {"id", one.element},
+                 {"size", one.size}};
+    json.update(parts_json(one));
+    elements.push_back(std::move(json));
+  }
+  return {{"edge_length_m", geometric.edge_length_m},
+          {"angle_deg", geometric.angle_deg},
+          {"thickness_spacing_m", geometric.spacing_m},
+          {"regions", parts_json(geometric.sum_of(ElementType::region))},
+          {"surfaces", parts_json(geometric.sum_of(ElementType::surface))},
+          {"lines", parts_json(geometric.sum_of(ElementType::line))},
+          {"total", geometric.total()},
+          {"elements", elements}};
+}
+
+Json spread_json(const LengthDistribution& spread) {
+  return {{"length_m", spread.length_m}, {"minimum", spread.minimum}, {"q50", spread.q50},
+          {"q90", spread.q90},           {"maximum", spread.maximum}, {"mean", spread.mean}};
+}
+
+Json faults_json(const FaultReport& report) {
+  Json list = Json::array();
+  for (const FaultMeasures& fault : report.faults)
+    list.push_back({{"name", fault.name},
+                    {"area_m2", fault.area_m2},
+                    {"strike_deg", fault.strike_deg},
+                    {"dip_deg", fault.dip_deg},
+                    {"horizons", fault.horizons},
+                    {"layers_affected", fault.layers_affected},
+                    {"throw_m", spread_json(fault.throw_m)},
+                    {"unmatched_m", fault.unmatched_m},
+                    {"horizon_angle_deg", spread_json(fault.horizon_angle_deg)},
+                    {"faults", fault.faults},
+                    {"fault_angle_deg", spread_json(fault.fault_angle_deg)},
+                    {"free_border_m", fault.free_border_m}});
+  return list;
+}
+
+Json complexity_block(const ComplexityReport& report) {
+  const ElementCounts& counts = report.counts;
+  const SizeVariation& variation = report.size_variation;
+  const FaultNetworkMeasures& network = report.faults.network;
+  Json cells = Json::array();
+  for (const CellStatistics& one : report.cells)
+    cells.push_back({{"n", one.cells},
+                     {"resolution_m", one.resolution_m},
+                     {"q10", one.q10},
+                     {"q50", one.q50},
+                     {"q90", one.q90},
+                     {"max", one.max},
+                     {"mean", one.mean},
+                     {"cv", one.cv},
+                     {"above_6", one.above_6},
+                     {"needed_edge_m", one.needed_edge_m}});
+  Json needs = Json::array();
+  for (std::size_t i = 0; i < report.needs.size(); ++i)
+    needs.push_back({{"region", i},
+                     {"name", report.needs[i].name},
+                     {"thinnest_m", report.needs[i].thinnest_m},
+                     {"needed_edge_m", report.needs[i].needed_edge_m}});
+  return {{"counts",
+           {{"regions", counts.regions},
+            {"surfaces", counts.surfaces},
+            {"lines", counts.lines},
+            {"corners", counts.corners},
+            {"total", counts.total()}}},
+          {"geometric", geometric_json(report.geometric)},
+          {"size_variation",
+           {{"regions", variation.regions},
+            {"surfaces", variation.surfaces},
+            {"lines", variation.lines},
+            {"total", variation.total()}}},
+          {"neighbourhoods", report.neighbourhoods},
+          {"count_by", report.count_by},
+          {"cells", cells},
+          {"faults", faults_json(report.faults)},
+          {"fault_network",
+           {{"faults", network.faults},
+            {"contacts", network.contacts},
+            {"dying", network.dying},
+            {"contact_length_m", network.contact_length_m},
+            {"smallest_angle_deg", network.smallest_angle_deg},
+            {"orientation_variation", network.orientation_variation}}},
+          {"regions", needs}};
+}
+
 Json tets_block(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
   return {{"vertices", quality.vertices},
           {"cells", quality.cells},
@@ -179,6 +386,11 @@ std::string report_json(const JobReport& report) {
                {"stages", stages}};
   if (report.sealed) json["cut"] = cut_block(*report.sealed);
   if (report.model && report.validity) json["model"] = model_block(*report.model, *report.validity);
+  if (report.sites && report.diagram) json["voronoi"] = voronoi_block(*report.sites, *report.diagram);
+  if (report.remeshed && report.surfaces && report.surfaces_validity && report.surfaces_report)
+    json["surfaces"] =
+        surfaces_block(*report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
+  if (report.complexity) json["complexity"] = complexity_block(*report.complexity);
   if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
   return written(json);
 }

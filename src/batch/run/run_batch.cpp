@@ -81,6 +81,14 @@ JobReport report_of(const Job& job, const WiredJob& wired, const StageGraph& gra
   report.sealed = output(wired.sealed);
   report.validity = output(wired.validity);
   report.model_pictures = output(wired.model_pictures);
+  report.sites = output(wired.sites);
+  report.diagram = output(wired.diagram);
+  report.remeshed = output(wired.remeshed);
+  report.surfaces = output(wired.surfaces);
+  report.surfaces_validity = output(wired.surfaces_validity);
+  report.surfaces_report = output(wired.surfaces_report);
+  report.surfaces_pictures = output(wired.surfaces_pictures);
+  report.complexity = output(wired.complexity);
   report.tets = output(wired.tets);
   report.tets_quality = output(wired.tets_quality);
   report.tets_pictures = output(wired.tets_pictures);

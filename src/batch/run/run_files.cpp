@@ -58,16 +58,22 @@ std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
   add("report.html", report_html(report));
   add("job.toml", resolved_job_text(job, facts.run_folder));
   add("log.txt", log_text(report, facts));
-  if (report.model && job.makes("model")) {
-    const StructuralModel& model = report.model->model;
+  const auto add_surfaces = [&](const std::string& product, const StructuralModel& model) {
     const LabelledTriangles triangles = labelled_triangles(model);
-    add("model.vtp", write_vtp(triangles));
-    if (job.writes("gocad")) add("model.ml", write_gocad_ml(model, job.header.name));
-    if (job.writes("medit")) add("model.mesh", write_medit(triangles));
-    if (job.writes("gmsh")) add("model.msh", write_gmsh(triangles));
-    if (job.writes("obj")) add("model.obj", write_obj(triangles));
-    if (job.writes("abaqus")) add("model.inp", write_abaqus(triangles));
-  }
+    add(product + ".vtp", write_vtp(triangles));
+    if (job.writes("gocad")) add(product + ".ml", write_gocad_ml(model, job.header.name));
+    if (job.writes("medit")) add(product + ".mesh", write_medit(triangles));
+    if (job.writes("gmsh")) add(product + ".msh", write_gmsh(triangles));
+    if (job.writes("obj")) add(product + ".obj", write_obj(triangles));
+    if (job.writes("abaqus")) add(product + ".inp", write_abaqus(triangles));
+  };
+  if (report.model && job.makes("model")) add_surfaces("model", report.model->model);
+  if (report.model && report.diagram && job.makes("voronoi"))
+    add("voronoi.vtp", write_voronoi_vtp(labelled_triangles(report.model->model), *report.diagram));
+  if (report.surfaces && report.surfaces_report && job.makes("surfaces"))
+    add_surfaces("surfaces", report.surfaces->model);
+  if (report.complexity && job.makes("complexity"))
+    add("complexity.vtu", write_vtu(report.complexity->map, report.complexity->fields));
   if (report.tets && report.tets_quality && job.makes("tets")) {
     add("tets.vtu", write_vtu(*report.tets));
     add("tets_facets.vtp", write_facets_vtp(*report.tets));

@@ -1,5 +1,7 @@
 #include "io/vtk/write_vtk_xml.h"
 
+#include <algorithm>
+#include <numeric>
 #include <string_view>
 #include <type_traits>
 
@@ -189,7 +191,48 @@ std::string write_vtp(const LabelledTriangles& surfaces) {
   return std::move(file).finish();
 }
 
-std::string write_vtu(const VolumeMesh& mesh) {
+std::string write_voronoi_vtp(const LabelledTriangles& surfaces, const RestrictedDiagram& diagram) {
+  // Corners that are equal bit for bit are one point.
+  std::vector<std::uint32_t> order(diagram.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (diagram.points[a] == diagram.points[b]) return a < b;
+    return lexicographically_less(diagram.points[a], diagram.points[b]);
+  });
+  std::vector<std::int64_t> point_of(order.size());
+  std::vector<Vec3> points;
+  for (const std::uint32_t corner : order) {
+    if (points.empty() || !(points.back() == diagram.points[corner])) points.push_back(diagram.points[corner]);
+    point_of[corner] = static_cast<std::int64_t>(points.size()) - 1;
+  }
+  std::vector<std::int32_t> site, surface, entity, triangle;
+  std::vector<std::int64_t> offsets;
+  for (std::size_t i = 0; i < diagram.piece_count(); ++i) {
+    const std::uint32_t on = surfaces.triangle_surface[diagram.piece_triangle[i]];
+    site.push_back(signed_index(diagram.piece_site[i]));
+    surface.push_back(signed_index(on));
+    entity.push_back(signed_index(surfaces.surface_entity[on]));
+    triangle.push_back(signed_index(diagram.piece_triangle[i]));
+    offsets.push_back(diagram.piece_begin[i + 1]);
+  }
+  VtkXmlFile file("PolyData");
+  write_entities(file, surfaces.entities);
+  file.open(polys_piece(points.size(), diagram.piece_count()));
+  file.open("CellData");
+  file.array("site", site);
+  file.array("surface", surface);
+  file.array("entity", entity);
+  file.array("triangle", triangle);
+  file.close("CellData");
+  write_points(file, points, surfaces.local_origin);
+  write_polys(file, point_of, offsets);
+  file.close("Piece");
+  return std::move(file).finish();
+}
+
+std::string write_vtu(const VolumeMesh& mesh) { return write_vtu(mesh, {}); }
+
+std::string write_vtu(const VolumeMesh& mesh, std::span<const CellField> fields) {
   VtkXmlFile file("UnstructuredGrid");
   file.open("FieldData");
   file.byte_field("region_names", mesh.region_names);
@@ -202,6 +245,8 @@ std::string write_vtu(const VolumeMesh& mesh) {
   file.open("CellData");
   file.array("region", mesh.cell_region.size() == mesh.cell_count() ? mesh.cell_region : none);
   file.array("entity", mesh.cell_entity.size() == mesh.cell_count() ? mesh.cell_entity : none);
+  for (const CellField& field : fields)
+    if (field.values.size() == mesh.cell_count()) file.array(field.name, field.values);
   file.close("CellData");
   write_points(file, mesh.points, mesh.local_origin);
   std::vector<std::uint8_t> types;

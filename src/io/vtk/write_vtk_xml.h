@@ -1,7 +1,10 @@
 #pragma once
+#include <span>
 #include <string>
 
 #include "io/input/labelled_triangles.h"
+#include "model/cell_field.h"
+#include "model/restricted_diagram.h"
 #include "model/volume_mesh.h"
 
 namespace strataflow {
@@ -13,10 +16,17 @@ namespace strataflow {
 /// field data `entity_names`, `entity_roles` (strings).
 std::string write_vtp(const LabelledTriangles& surfaces);
 
+/// The pieces of cells of a diagram restricted to these triangles, as polygons that share their corners; cell arrays
+/// `site`, `surface`, `entity`, `triangle`.
+std::string write_voronoi_vtp(const LabelledTriangles& surfaces, const RestrictedDiagram& diagram);
+
 /// Cells with `region` and `entity` (-1: none); point arrays `line`, `corner` when the mesh has them. Field data
 /// `region_names` and `entity_names` are UTF-8 bytes (UInt8), each name ended by a zero: meshio refuses whole files
 /// that hold VTK's string arrays.
 std::string write_vtu(const VolumeMesh& mesh);
+
+/// The same with further cell arrays. A field without one value per cell is left out.
+std::string write_vtu(const VolumeMesh& mesh, std::span<const CellField> fields);
 
 /// The facets of a mesh, with cell arrays `surface`, `entity`, `cell_0`, `cell_1` (-1: outside). Points are numbered as
 /// in `write_vtu`. Field data as in `write_vtp`.

@@ -12,8 +12,10 @@
 #include "kernels/borders/resample_borders.h"
 #include "kernels/intersection/find_intersections.h"
 #include "kernels/scars/drop_unused_points.h"
-#include "kernels/topology/union_find.h"
 #include "kernels/topology/building/weld_points.h"
+#include "kernels/topology/keep_triangles.h"
+#include "kernels/topology/sorted_unique.h"
+#include "kernels/topology/union_find.h"
 
 namespace strataflow {
 
@@ -59,9 +61,6 @@ class Pass {
     for (std::size_t b = 0; b < is_chosen_.size(); ++b)
       is_chosen_[b] = network_.borders[b].wanted_edge_count() < network_.borders[b].edge_count();
     if (resampled() == 0) return false;
-    crossings_before_.clear();
-    for (const IntersectingPair& pair : find_intersections(soup_.points, soup_.triangles))
-      crossings_before_.push_back({pair.first, pair.second});
     fans_before_ = count_fans(soup_.points.size(), soup_.triangles, network_.edges, network_.is_feature);
     while (resampled() > 0)
       if (attempt()) return true;
@@ -252,19 +251,23 @@ class Pass {
       if (is_on_chain[b] && !is_on_border[a]) ring.push_back(a);
     }
     std::erase_if(ring, [&](std::uint32_t v) { return is_pinned_[v]; });
-    std::sort(ring.begin(), ring.end());
-    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
-    const std::vector<std::uint32_t> moved = relax_ring(mesh_.points, triangles_, ring, options_.corner_angle_deg);
+    const std::vector<std::uint32_t> moved =
+        relax_ring(mesh_.points, triangles_, sorted_unique(std::move(ring)), options_.corner_angle_deg);
     for (const std::uint32_t v : moved) is_ring_[v] = 1;
     relaxed_ = moved.size();
   }
 
+  bool met_before(std::uint32_t s, std::uint32_t t) const {
+    const Triangle &v = soup_.triangles[s], &w = soup_.triangles[t];
+    return s != t && !is_degenerate(soup_.points, v) && !is_degenerate(soup_.points, w) &&
+           meeting_of(soup_.points, v, w) != PairMeeting::proper;
+  }
+
   void check_crossings() {
-    for (const IntersectingPair& pair : find_intersections(mesh_.points, triangles_)) {
-      const std::uint32_t s = mesh_.source[piece_[pair.first]], t = mesh_.source[piece_[pair.second]];
-      if (s != t && std::binary_search(crossings_before_.begin(), crossings_before_.end(),
-                                       std::array{std::min(s, t), std::max(s, t)}))
-        continue;
+    std::vector<char> changed(triangles_.size());
+    for (std::uint32_t t = 0; t < changed.size(); ++t) changed[t] = is_changed(t);
+    for (const IntersectingPair& pair : find_intersections_of(mesh_.points, triangles_, changed)) {
+      if (met_before(mesh_.source[piece_[pair.first]], mesh_.source[piece_[pair.second]])) continue;
       blame_relaxed(pair.first, BorderRefusal::crossing);
       blame_relaxed(pair.second, BorderRefusal::crossing);
     }
@@ -352,7 +355,6 @@ class Pass {
   BorderNetwork network_;
   std::vector<char> is_chosen_;
   std::vector<char> is_pinned_;  ///< per old point: not to be relaxed
-  std::vector<std::array<std::uint32_t, 2>> crossings_before_;
   std::vector<std::uint32_t> fans_before_;
   std::vector<RefusedBorder> refused_;
   std::uint64_t relaxed_ = 0;
@@ -370,16 +372,13 @@ class Pass {
 /// Equal positions become one point; triangles that repeat one then go.
 TriangleSoup welded(TriangleSoup soup) {
   const WeldedPoints points = weld_points(soup.points);
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < soup.triangles.size(); ++t) {
-    Triangle v = soup.triangles[t];
+  std::vector<char> is_kept(soup.triangles.size());
+  for (std::size_t t = 0; t < is_kept.size(); ++t) {
+    Triangle& v = soup.triangles[t];
     for (std::uint32_t& corner : v) corner = points.source[points.id[corner]];
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) continue;
-    soup.triangles[kept] = v;
-    soup.triangle_patch[kept++] = soup.triangle_patch[t];
+    is_kept[t] = v[0] != v[1] && v[1] != v[2] && v[2] != v[0];
   }
-  soup.triangles.resize(kept);
-  soup.triangle_patch.resize(kept);
+  keep_triangles(soup, is_kept);
   for (std::uint32_t& v : soup.border_stones) v = points.source[points.id[v]];
   for (auto& ends : soup.border_starts)
     for (std::uint32_t& v : ends) v = points.source[points.id[v]];

@@ -18,7 +18,7 @@ enum class BorderRefusal : std::uint8_t {
   pinched,    ///< surfaces would meet along other edges, or at other points, than before
   emptied,    ///< a surface would vanish
   crossing,   ///< triangles would cross that did not
-  reordered,  ///< the surfaces would follow one another around it in another order (§2.9.5)
+  reordered,  ///< the surfaces would follow one another around it in another order (§2.9.5; docs/architecture.md)
   no_gain     ///< the worst triangle beside it would be worse than now
 };
 

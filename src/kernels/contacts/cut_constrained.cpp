@@ -26,6 +26,10 @@ std::string metres(double value) {
 /// Surfaces bent by more than 30° have a crease there, like the edges of a box.
 constexpr double crease_cosine = 0.866;
 
+/// A place that surfaces share is far from a node: this many times further than the surfaces are, and than where they
+/// cross.
+constexpr double far_ratio = 1.5;
+
 /// A border node with everything it must lie on.
 struct Node {
   std::uint32_t vertex = 0;
@@ -213,7 +217,12 @@ class Cutter {
       node.target = shared_place(p, node, surfaces, radius_m);
       for (; !node.target && !node.free_borders.empty() && radius_m < 2 * mesh_.diagonal_m(); radius_m *= 4)
         node.target = shared_place(p, node, surfaces, 4 * radius_m);
-      if (!node.target) node.target = meeting_place(p, surfaces);
+      // What they share may be a corner that another contact made elsewhere, while they cross here.
+      const double shared_m = node.target ? length(*node.target - p) : std::numeric_limits<double>::infinity();
+      if (shared_m > far_ratio * furthest_m && (!node.target || node.free_borders.empty())) {
+        const auto meeting = meeting_place(p, surfaces);
+        if (meeting && (!node.target || far_ratio * length(*meeting - p) < shared_m)) node.target = meeting;
+      }
       if (!node.target) {
         node.failure = "the surfaces it must lie on do not meet near " + place(p);
         return;

@@ -187,7 +187,8 @@ void add_runs(const TriangleSoup& soup, const ContactMesh& mesh, const Border& b
 }
 
 /// Which controller every edge of a border belongs to, so that the area between is least; passing from one to the next
-/// costs the distance squared. Empty if an edge has none.
+/// costs the distance squared. That fee is tuned on the reference models: with half of it, the border of a horizon that
+/// an unconformity grazes (A6 at 50 m) hops between the two. Empty if an edge has none.
 std::vector<std::uint32_t> choose_controllers(const TriangleSoup& soup, const ContactMesh& mesh, const Border& border,
                                               const std::vector<std::vector<Nearness>>& near, double facing,
                                               double distance_m) {

@@ -29,10 +29,10 @@ struct FoundContacts {
 
 /// Contacts that surfaces nearly make: every border between stones all of whose edges lie within the distance of other
 /// entities and face them, or one of which is on them in part already; divided where it passes from one to the next, so
-/// that the area between is least. One that runs beside a surface belongs to it where both its ends are in contacts. A
-/// border with any edge that nothing is near to is left alone: it is a fault that dies out. The end of a slit, where
-/// two borders on one controller meet, slides on that controller's own border if that is within the distance. Parts
-/// that conform already are left out. Parallel, independent of the schedule.
+/// that the area between and a fee of distance_m² for each passage are least. One that runs beside a surface belongs to
+/// it where both its ends are in contacts. A border with any edge that nothing is near to is left alone: it is a fault
+/// that dies out. The end of a slit, where two borders on one controller meet, slides on that controller's own border
+/// if that is within the distance. Parts that conform already are left out. Parallel, independent of the schedule.
 FoundContacts find_contacts(const TriangleSoup& soup, const FindContactsOptions& options);
 
 /// Contacts by name. Each text is one of

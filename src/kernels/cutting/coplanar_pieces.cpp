@@ -10,6 +10,7 @@ namespace {
 using DirectedEdge = std::array<std::uint32_t, 2>;
 
 struct Pocket {
+  std::uint32_t rank = 0;               ///< of its owner, among the overlapping
   std::uint32_t owner = 0;              ///< index into pieces
   std::uint32_t number = 0;             ///< its pocket there
   std::vector<std::uint32_t> vertices;  ///< ascending
@@ -17,8 +18,8 @@ struct Pocket {
   DirectedEdge first_edge{};            ///< outline.front() as the pieces run along it
 };
 
-Pocket describe(const CutPieces& pieces, std::uint32_t owner, std::uint32_t number) {
-  Pocket pocket{owner, number, {}, {}, {}};
+Pocket describe(const CutPieces& pieces, std::uint32_t rank, std::uint32_t owner, std::uint32_t number) {
+  Pocket pocket{rank, owner, number, {}, {}, {}};
   std::vector<std::array<std::uint32_t, 3>> edges;  // low, high, whether it runs from low to high
   for (std::size_t i = 0; i < pieces.triangles.size(); ++i) {
     if (pieces.pocket[i] != number) continue;
@@ -49,19 +50,21 @@ Pocket describe(const CutPieces& pieces, std::uint32_t owner, std::uint32_t numb
 
 void unify_coplanar_pieces(std::vector<CutPieces>& pieces, const std::vector<std::uint32_t>& overlapping) {
   std::vector<Pocket> pockets;
-  for (const std::uint32_t owner : overlapping) {
+  for (std::uint32_t rank = 0; rank < overlapping.size(); ++rank) {
+    const std::uint32_t owner = overlapping[rank];
     std::vector<std::uint32_t> size;
     for (const std::uint32_t number : pieces[owner].pocket) {
       if (number >= size.size()) size.resize(number + 1, 0);
       ++size[number];
     }
     for (std::uint32_t number = 0; number < size.size(); ++number)
-      if (size[number] > 1) pockets.push_back(describe(pieces[owner], owner, number));  // one piece is one way only
+      if (size[number] > 1)
+        pockets.push_back(describe(pieces[owner], rank, owner, number));  // one piece is one way only
   }
   std::sort(pockets.begin(), pockets.end(), [](const Pocket& a, const Pocket& b) {
     if (a.vertices != b.vertices) return a.vertices < b.vertices;
     if (a.outline != b.outline) return a.outline < b.outline;
-    return a.owner != b.owner ? a.owner < b.owner : a.number < b.number;
+    return a.rank != b.rank ? a.rank < b.rank : a.number < b.number;
   });
   for (std::size_t i = 1, model = 0; i < pockets.size(); ++i) {
     const Pocket &first = pockets[model], &other = pockets[i];

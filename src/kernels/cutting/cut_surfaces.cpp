@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "base/id.h"
+#include "base/internal_error.h"
 #include "graph/parallel/parallel_map.h"
 #include "graph/parallel/sort_total_order.h"
 #include "kernels/cutting/cluster_points.h"
@@ -13,8 +14,8 @@
 #include "kernels/cutting/repair_rounding.h"
 #include "kernels/cutting/rounded_position.h"
 #include "kernels/cutting/suspected_repeats.h"
-#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/building/weld_points.h"
+#include "kernels/topology/sorted_unique.h"
 #include "model/box3.h"
 
 namespace strataflow {
@@ -161,7 +162,7 @@ class SurfaceCutter {
     struct Key {
       Triangle vertices;
       std::uint32_t entity, triangle;
-      char is_turned;  ///< against ascending vertices
+      char is_turned;  ///< against ascending positions
     };
     std::vector<Key> keys;
     std::vector<char> is_touched(mesh_.points.size(), 0);
@@ -176,7 +177,9 @@ class SurfaceCutter {
     for (const std::uint32_t t : suspected_repeats(mesh_.points.size(), mesh_.triangles, is_left_out)) {
       const Triangle& v = mesh_.triangles[t];
       Triangle sorted = v;
-      std::sort(sorted.begin(), sorted.end());
+      std::sort(sorted.begin(), sorted.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return lexicographically_less(mesh_.points[a], mesh_.points[b]);
+      });
       const bool is_turned =
           !(sorted == v || sorted == Triangle{v[1], v[2], v[0]} || sorted == Triangle{v[2], v[0], v[1]});
       keys.push_back({sorted, entity_of(t), t, static_cast<char>(is_turned)});
@@ -194,7 +197,10 @@ class SurfaceCutter {
       if (end - first > 1) {
         any = true;
         const bool is_fold = balance == 0 && result_.report.rounds > 0 && is_sliver(keys[first].vertices);
-        for (std::size_t i = is_fold ? first : first + 1; i < end; ++i) {
+        std::size_t kept = is_fold ? end : first;  // one of the side most look to, however the input is numbered
+        while (kept < end && keys[kept].is_turned != (balance < 0)) ++kept;
+        for (std::size_t i = first; i < end; ++i) {
+          if (i == kept) continue;
           is_kept[keys[i].triangle] = 0;
           ++drop_count();
         }
@@ -317,6 +323,7 @@ class SurfaceCutter {
     std::vector<std::uint32_t> copy(mesh_.points.size(), no_index), copy_patch(mesh_.points.size(), no_index);
     out.triangles.resize(mesh_.triangles.size());
     out.triangle_patch.resize(mesh_.triangles.size());
+    std::vector<std::uint32_t> inserted;
     for (const std::uint32_t t : order) {
       const std::uint32_t origin = mesh_.origin[t], patch = patch_of[t];
       out.triangle_patch[t] = patch;
@@ -325,14 +332,27 @@ class SurfaceCutter {
         if (copy[v] == no_index || (has_values && copy_patch[v] != patch)) {
           copy[v] = static_cast<std::uint32_t>(out.points.size());
           copy_patch[v] = patch;
+          if (v >= mesh_.input_point_count) inserted.push_back(copy[v]);
           out.points.push_back(mesh_.points[v]);
           interpolate(origin, mesh_.points[v]);
         }
         out.triangles[t][k] = copy[v];
       }
     }
+    mark_inserted(inserted);
     result_.report.new_points =
         mesh_.points.size() > mesh_.input_point_count ? mesh_.points.size() - mesh_.input_point_count : 0;
+  }
+
+  void mark_inserted(const std::vector<std::uint32_t>& inserted) {
+    std::vector<PointProperty>& properties = result_.soup.properties;
+    auto mark = std::find_if(properties.begin(), properties.end(),
+                             [](const PointProperty& p) { return p.name == "inserted_by_cut" && p.width == 1; });
+    if (mark == properties.end()) {
+      if (!options_.mark_inserted) return;
+      mark = properties.insert(mark, {"inserted_by_cut", "", 1, std::vector<double>(result_.soup.points.size(), 0)});
+    }
+    for (const std::uint32_t v : inserted) mark->values[v] = 1;
   }
 
   /// Appends the values at a point of an input triangle: linear between its corners.
@@ -375,6 +395,9 @@ class SurfaceCutter {
 }  // namespace
 
 Result<CutResult> cut_surfaces(const TriangleSoup& soup, const CutSurfacesOptions& options) {
+  for (const PointProperty& property : soup.properties)
+    STRATAFLOW_ASSERT(property.values.size() == soup.points.size() * property.width,
+                      "property " + property.name + " does not have a value for every point");
   return SurfaceCutter(soup, options).run();
 }
 

@@ -17,6 +17,9 @@ struct CutSurfacesOptions {
   /// Points of intersection closer than this to an input point, or to each other, become one after cutting (euler1999
   /// §2.3.5); 0: only equal ones.
   double intersection_tolerance_m = 0;
+  /// Write a point property `inserted_by_cut`: 1 at points the cut made. It is what remove_scars needs to undo the cut
+  /// and costs eight bytes a point. Where the input has it, it is kept up to date whatever this says.
+  bool mark_inserted = false;
 };
 
 /// Cuts surfaces along everything they share, with each other and with themselves (euler1999 §2.3, §2.6). The result

@@ -39,8 +39,7 @@ void TriangleCutter::load(const TriangleContents& contents) {
     if (p.place < place_inside) inserted_.back().place = static_cast<PlaceInTriangle>(3 + (p.place - first) % 3);
   }
   std::sort(inserted_.begin(), inserted_.end(), [&](const PointOnTriangle& a, const PointOnTriangle& b) {
-    const Vec3 &p = cut_points_->position(a.point), &q = cut_points_->position(b.point);
-    return p == q ? a.point < b.point : lexicographically_less(p, q);
+    return cut_points_->before(a.point, b.point);
   });
   for (const PointOnTriangle& p : inserted_) {
     local_.add(cut_points_->definition(p.point), cut_points_->position(p.point), p.place);

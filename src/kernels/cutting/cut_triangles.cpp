@@ -140,6 +140,29 @@ void add_crossings(CutPoints& cut_points, const std::vector<Triangle>& triangles
                         contacts.points.end());
 }
 
+/// Sorts items that have a triangle each by where its corners are, so that their numbers decide between identical ones
+/// only.
+template <class TriangleOf>
+void sort_by_position(std::vector<std::uint32_t>& items, const std::vector<Vec3>& points, TriangleOf&& triangle_of) {
+  const auto less = [&](std::uint32_t a, std::uint32_t b) { return lexicographically_less(points[a], points[b]); };
+  struct Key {
+    Triangle corners;
+    std::uint32_t item;
+  };
+  std::vector<Key> keys;
+  for (const std::uint32_t item : items) {
+    Triangle t = triangle_of(item);
+    std::rotate(t.begin(), std::min_element(t.begin(), t.end(), less), t.end());
+    keys.push_back({t, item});
+  }
+  sort_total_order(keys, [&](const Key& a, const Key& b) {
+    for (int k = 0; k < 3; ++k)
+      if (a.corners[k] != b.corners[k]) return less(a.corners[k], b.corners[k]);
+    return a.item < b.item;
+  });
+  for (std::size_t i = 0; i < items.size(); ++i) items[i] = keys[i].item;
+}
+
 /// Numbers the areas between segments.
 std::vector<std::uint32_t> number_pockets(const std::vector<ConstrainedTriangulation::Cell>& cells) {
   std::vector<std::uint32_t> pocket(cells.size(), no_index), stack;
@@ -239,6 +262,7 @@ Result<TriangleCut> cut_triangles(const std::vector<Vec3>& points, const std::ve
         pieces[i].pocket = number_pockets(cutter.cells());
     }
   });
+  sort_by_position(contents_of_overlapping, points, [&](std::uint32_t i) { return triangles[contents[i].triangle]; });
   unify_coplanar_pieces(pieces, contents_of_overlapping);
 
   TriangleCut cut;

@@ -11,6 +11,12 @@
 
 namespace strataflow {
 
+bool CutPoints::before(std::uint32_t a, std::uint32_t b) const {
+  const Vec3 &p = position(a), &q = position(b);
+  if (a == b || !(p == q)) return lexicographically_less(p, q);
+  return compare(exact_position(*input_, definition(a)), exact_position(*input_, definition(b))) < 0;
+}
+
 std::vector<std::uint32_t> CutPoints::identify(const std::vector<PointDefinition>& definitions) {
   constexpr std::size_t grain = 256;
   // One of each definition.

@@ -27,6 +27,8 @@ class CutPoints {
   PointDefinition definition(std::uint32_t id) const {
     return id < input_->size() ? vertex_point(id) : added_[id - input_->size()].definition;
   }
+  /// Lexicographic order of places, exact where their rounded positions agree: the same however the input is numbered.
+  bool before(std::uint32_t a, std::uint32_t b) const;
   const std::vector<Vec3>& input() const { return *input_; }
 
  private:

@@ -43,14 +43,18 @@ std::vector<std::uint32_t> merge_coincident(CutMesh& mesh, const TriangleSoup& i
   std::vector<std::uint32_t> patch;
   patch.reserve(mesh.origin.size());
   for (const std::uint32_t origin : mesh.origin) patch.push_back(input.triangle_patch[origin]);
-  const auto runs = find_identical(mesh);
+  auto runs = find_identical(mesh);
   if (runs.empty()) return patch;
 
   std::map<std::vector<std::uint32_t>, std::uint32_t> patch_of_set;
   std::map<std::vector<std::uint32_t>, std::uint64_t> triangles_of_entities;
   std::vector<char> is_kept(mesh.triangles.size(), 1);
-  for (const std::vector<std::uint32_t>& run : runs) {
-    std::vector<std::uint32_t> patches, entities;
+  for (std::vector<std::uint32_t>& run : runs) {
+    std::vector<std::uint32_t> patches, entities, owners;
+    for (const std::uint32_t t : run) owners.push_back(input.patch_entity[patch[t]]);
+    // The youngest entity's own triangle stands for all, turned as it is there.
+    const auto youngest = std::find(owners.begin(), owners.end(), youngest_of(input.entities, owners));
+    std::swap(run[0], run[static_cast<std::size_t>(youngest - owners.begin())]);
     for (const std::uint32_t t : run) {
       is_kept[t] = t == run[0];
       patches.push_back(patch[t]);

@@ -7,8 +7,8 @@
 
 #include "base/id.h"
 #include "kernels/cutting/rounded_position.h"
-#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/building/weld_points.h"
+#include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {
 
@@ -173,15 +173,22 @@ class Repairer {
     const Triangle corners = corners_of(t), other = corners_of(u);
     for (const std::uint32_t v : corners) {
       if (has(u, v)) continue;
+      // Of a sliver's edges the longest: a shorter one would be flipped to and fro round by round.
+      int best = 3;
+      double longest = 0, distance = 0;
       for (int k = 0; k < 3; ++k) {
-        const std::uint32_t a = other[k], b = other[(k + 1) % 3];
-        const OnSegment nearest = nearest_on_segment(at(v), at(a), at(b));
-        const double distance = length(nearest.point - at(v));
-        if (distance > reach_ || !(nearest.share > 0 && nearest.share < 1)) continue;
-        split_edge(a, b, v);
-        moved(distance);
-        return;  // u is another triangle now
+        const Vec3 &a = at(other[k]), &b = at(other[(k + 1) % 3]);
+        const OnSegment nearest = nearest_on_segment(at(v), a, b);
+        const double away = length(nearest.point - at(v));
+        if (away > reach_ || !(nearest.share > 0 && nearest.share < 1) || !(length(b - a) > longest)) continue;
+        best = k;
+        longest = length(b - a);
+        distance = away;
       }
+      if (best == 3) continue;
+      split_edge(other[best], other[(best + 1) % 3], v);
+      moved(distance);
+      return;  // u is another triangle now
     }
   }
 
@@ -189,7 +196,7 @@ class Repairer {
     if (!is_alive_[t] || !is_alive_[u]) return;
     for (const std::uint32_t v : corners_of(t)) {
       if (has(u, v)) continue;
-      const Triangle other = mesh_.triangles[u];
+      const Triangle other = corners_of(u);
       const double distance = height_over(at(v), at(other[0]), at(other[1]), at(other[2]));
       if (!(distance <= reach_)) continue;
       add_copy(u, other[0], v);

@@ -28,7 +28,7 @@ struct RoundingRepair {
 };
 
 /// Triangles that still meet improperly after rounding do so by a few units in the last place. Where a vertex of one
-/// lies within `reach_m` of the other, the nearest vertex, edge or triangle is made to pass through it; where two
+/// lies within `reach_m` of the other, a vertex, the longest edge or the triangle is made to pass through it; where two
 /// edges do, both get a vertex there. Coarser contacts first: merging, then vertices on edges, then in triangles, then
 /// edges on edges; one kind a call. Triangles that lose their area by it are dropped. Pairs with nothing in reach are
 /// left alone. New points survive being moved by `origin`. Serial, in an

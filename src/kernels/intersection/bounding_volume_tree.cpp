@@ -3,6 +3,7 @@
 #include <bit>
 #include <limits>
 
+#include "graph/parallel/ordered_reduce.h"
 #include "graph/parallel/parallel_map.h"
 #include "graph/parallel/sort_total_order.h"
 
@@ -25,15 +26,6 @@ float rounded_down(double value) {
 
 float rounded_up(double value) { return -rounded_down(-value); }
 
-FloatBox joined(const FloatBox& a, const FloatBox& b) {
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    box.low[axis] = std::min(a.low[axis], b.low[axis]);
-    box.high[axis] = std::max(a.high[axis], b.high[axis]);
-  }
-  return box;
-}
-
 FloatBox whole(const FourBoxes& four) {
   return joined(joined(four.box(0), four.box(1)), joined(four.box(2), four.box(3)));
 }
@@ -50,6 +42,15 @@ std::uint64_t spread(std::uint64_t x) {
 
 }  // namespace
 
+FloatBox joined(const FloatBox& a, const FloatBox& b) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(a.low[axis], b.low[axis]);
+    box.high[axis] = std::max(a.high[axis], b.high[axis]);
+  }
+  return box;
+}
+
 FloatBox enclosing(const Box3& box) {
   FloatBox out;
   for (int axis = 0; axis < 3; ++axis) {
@@ -59,11 +60,11 @@ FloatBox enclosing(const Box3& box) {
   return out;
 }
 
-BoundingVolumeTree::BoundingVolumeTree(const std::vector<FloatBox>& item_boxes) {
+BoundingVolumeTree::BoundingVolumeTree(std::span<const FloatBox> item_boxes) {
   const std::size_t count = item_boxes.size();
   if (count == 0) return;
-  FloatBox all = item_boxes.front();
-  for (const FloatBox& box : item_boxes) all = joined(all, box);
+  const FloatBox all = ordered_reduce(
+      count, FloatBox::nothing(), [&](std::size_t i) { return item_boxes[i]; }, joined);
   // One scale for all axes keeps the curve's cells cubes, whatever the shape of the model.
   float extent = 0;
   for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, all.high[axis] - all.low[axis]);
@@ -71,7 +72,7 @@ BoundingVolumeTree::BoundingVolumeTree(const std::vector<FloatBox>& item_boxes) 
 
   // Place on the curve and item in one number: as many leading bits of the place as the items leave free.
   const int item_bits = std::max(1, static_cast<int>(std::bit_width(count - 1)));
-  std::vector<std::uint64_t> places(count);
+  UnsetVector<std::uint64_t> places(count);
   parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const FloatBox& box = item_boxes[i];
@@ -99,8 +100,8 @@ BoundingVolumeTree::BoundingVolumeTree(const std::vector<FloatBox>& item_boxes) 
       }
   });
   do {
-    const std::vector<FourBoxes>& below = levels_.empty() ? boxes_ : levels_.back();
-    std::vector<FourBoxes> level((below.size() + 3) / 4);
+    const UnsetVector<FourBoxes>& below = levels_.empty() ? boxes_ : levels_.back();
+    UnsetVector<FourBoxes> level((below.size() + 3) / 4);
     parallel_ranges(level.size(), grain / 4, [&](std::size_t begin, std::size_t end) {
       for (std::size_t node = begin; node < end; ++node)
         for (std::uint32_t k = 0; k < 4; ++k)

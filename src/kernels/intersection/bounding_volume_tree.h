@@ -4,16 +4,17 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
+#include "graph/parallel/unset_vector.h"
 #include "model/box3.h"
 
 namespace strataflow {
 
 /// An axis-aligned box in single precision, rounded outward: half the memory traffic, never too small.
 struct FloatBox {
-  std::array<float, 3> low{};
-  std::array<float, 3> high{};
+  std::array<float, 3> low, high;
 
   /// A box that overlaps no box.
   static constexpr FloatBox nothing() {
@@ -27,6 +28,7 @@ inline bool overlap(const FloatBox& a, const FloatBox& b) {
          (a.low[2] <= b.high[2]) & (b.low[2] <= a.high[2]);
 }
 
+FloatBox joined(const FloatBox& a, const FloatBox& b);
 FloatBox enclosing(const Box3& box);
 
 /// Four boxes side by side, so that one box is compared with all of them at once. Missing ones overlap nothing.
@@ -42,6 +44,16 @@ struct FourBoxes {
       low[axis][k] = box.low[axis];
       high[axis][k] = box.high[axis];
     }
+  }
+  /// Squared distances from a point, infinite for missing boxes.
+  std::array<double, size> squared_distances(const Vec3& p) const {
+    std::array<double, size> squared{};
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::uint32_t k = 0; k < size; ++k) {
+        const double away = std::max({low[axis][k] - p[axis], p[axis] - high[axis][k], 0.0});
+        squared[k] += away * away;
+      }
+    return squared;
   }
   /// Bit k is set when item k overlaps `other`.
   std::uint32_t overlaps(const FloatBox& other) const {
@@ -64,7 +76,7 @@ class BoundingVolumeTree {
   static constexpr std::uint32_t leaf_size = FourBoxes::size;
 
   BoundingVolumeTree() = default;
-  explicit BoundingVolumeTree(const std::vector<FloatBox>& item_boxes);
+  explicit BoundingVolumeTree(std::span<const FloatBox> item_boxes);
 
   std::uint32_t item_count() const { return static_cast<std::uint32_t>(items_.size()); }
   /// Item at a place along the curve, and its box.
@@ -109,10 +121,41 @@ class BoundingVolumeTree {
     });
   }
 
+  /// Calls limit = visit(place) for every item whose box lies within √limit of p, nearest boxes first; `visit` returns
+  /// the squared distance from which on nothing matters any more.
+  template <class Visit>
+  void visit_nearest(const Vec3& p, double limit, Visit&& visit) const {
+    if (levels_.empty()) return;
+    struct Entry {
+      std::uint32_t level, node;  // level 0: a leaf's items
+      double squared;
+    };
+    std::array<Entry, 72> stack;
+    std::size_t depth = 0;
+    stack[depth++] = {static_cast<std::uint32_t>(levels_.size()), 0, 0};
+    while (depth > 0) {
+      const auto [level, node, squared] = stack[--depth];
+      if (squared > limit) continue;
+      const FourBoxes& boxes = level == 0 ? boxes_[node] : levels_[level - 1][node];
+      const std::array<double, 4> away = boxes.squared_distances(p);
+      if (level == 0) {
+        for (std::uint32_t k = 0; k < leaf_size; ++k)
+          if (leaf_size * node + k < items_.size() && away[k] <= limit) limit = visit(leaf_size * node + k);
+        continue;
+      }
+      std::array<std::uint32_t, 4> order{0, 1, 2, 3};
+      std::sort(order.begin(), order.end(),
+                [&](std::uint32_t a, std::uint32_t b) { return away[a] != away[b] ? away[a] > away[b] : a > b; });
+      for (const std::uint32_t k : order)
+        if (away[k] <= limit && away[k] < std::numeric_limits<double>::infinity())
+          stack[depth++] = {level - 1, 4 * node + k, away[k]};
+    }
+  }
+
  private:
-  std::vector<std::uint32_t> items_;
-  std::vector<FourBoxes> boxes_;                ///< per leaf
-  std::vector<std::vector<FourBoxes>> levels_;  ///< [0] boxes of leaves … back() the root alone
+  UnsetVector<std::uint32_t> items_;
+  UnsetVector<FourBoxes> boxes_;                ///< per leaf
+  std::vector<UnsetVector<FourBoxes>> levels_;  ///< [0] boxes of leaves … back() the root alone
 };
 
 }  // namespace strataflow

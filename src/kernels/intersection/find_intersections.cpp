@@ -21,13 +21,7 @@ constexpr std::size_t blocks_per_task = 32;
 
 FloatBox box_of_leaves(const BoundingVolumeTree& tree, std::uint32_t begin, std::uint32_t end) {
   FloatBox box = tree.leaf_box(begin);
-  for (std::uint32_t leaf = begin + 1; leaf < end; ++leaf) {
-    const FloatBox more = tree.leaf_box(leaf);
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], more.low[axis]);
-      box.high[axis] = std::max(box.high[axis], more.high[axis]);
-    }
-  }
+  for (std::uint32_t leaf = begin + 1; leaf < end; ++leaf) box = joined(box, tree.leaf_box(leaf));
   return box;
 }
 
@@ -40,6 +34,8 @@ FloatBox box_of(const std::vector<Vec3>& points, const Triangle& triangle) {
 /// The vertices of a leaf's triangles side by side.
 struct FourTriangles {
   std::array<std::array<std::uint32_t, 4>, 3> vertices;
+
+  Triangle triangle(std::uint32_t k) const { return {vertices[0][k], vertices[1][k], vertices[2][k]}; }
 
   /// Of the triangles marked by bit k in `hits`: those with none of the vertices of `t`.
   std::uint32_t without(const Triangle& t, std::uint32_t hits) const {
@@ -135,7 +131,7 @@ bool is_degenerate(const std::vector<Vec3>& points, const Triangle& t) {
 std::vector<IntersectingPair> find_intersections(const std::vector<Vec3>& points,
                                                  const std::vector<Triangle>& triangles) {
   // A triangle of zero area has a box that overlaps nothing.
-  std::vector<FloatBox> boxes(triangles.size());
+  UnsetVector<FloatBox> boxes(triangles.size());
   parallel_ranges(triangles.size(), triangle_grain, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t)
       boxes[t] = is_degenerate(points, triangles[t]) ? FloatBox::nothing() : box_of(points, triangles[t]);
@@ -146,24 +142,17 @@ std::vector<IntersectingPair> find_intersections(const std::vector<Vec3>& points
   // Triangles in the order of the curve: what one task reads lies together.
   const std::uint32_t count = tree.item_count();
   const std::uint32_t leaf_count = tree.leaf_count();
-  std::vector<FourTriangles> vertices_of_leaf(leaf_count);
-  std::vector<Triangle> unfolded(count);  // vertices at which no two triangles meet improperly, else no_index
-  {
-    const std::vector<char> is_unfolded = find_unfolded_vertices(points, triangles);
-    parallel_ranges(leaf_count, triangle_grain / BoundingVolumeTree::leaf_size,
-                    [&](std::size_t begin, std::size_t end) {
-                      for (std::size_t leaf = begin; leaf < end; ++leaf)
-                        for (std::uint32_t k = 0; k < BoundingVolumeTree::leaf_size; ++k) {
-                          const auto place = static_cast<std::uint32_t>(leaf * BoundingVolumeTree::leaf_size + k);
-                          if (place >= count) break;
-                          const Triangle& t = triangles[tree.item_at(place)];
-                          for (int i = 0; i < 3; ++i) {
-                            vertices_of_leaf[leaf].vertices[i][k] = t[i];
-                            unfolded[place][i] = is_unfolded[t[i]] ? t[i] : no_index;
-                          }
-                        }
-                    });
-  }
+  UnsetVector<FourTriangles> leaves(leaf_count);
+  parallel_ranges(leaf_count, triangle_grain / BoundingVolumeTree::leaf_size, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t leaf = begin; leaf < end; ++leaf)
+      for (std::uint32_t k = 0; k < BoundingVolumeTree::leaf_size; ++k) {
+        const auto place = static_cast<std::uint32_t>(leaf * BoundingVolumeTree::leaf_size + k);
+        const Triangle t = place < count ? triangles[tree.item_at(place)] : Triangle{no_index, no_index, no_index};
+        for (int i = 0; i < 3; ++i) leaves[leaf].vertices[i][k] = t[i];
+      }
+  });
+  // Vertices at which no two triangles meet improperly.
+  const std::vector<char> is_unfolded = find_unfolded_vertices(points, triangles);
 
   const std::size_t block_count = (leaf_count + leaves_per_block - 1) / leaves_per_block;
   const std::size_t task_count = (block_count + blocks_per_task - 1) / blocks_per_task;
@@ -195,21 +184,25 @@ std::vector<IntersectingPair> find_intersections(const std::vector<Vec3>& points
         const std::uint32_t end = std::min(count, begin + BoundingVolumeTree::leaf_size);
         for (std::uint32_t place = begin; place < end; ++place) {
           const FloatBox box = tree.box_at(place);
+          const Triangle v = leaves[leaf].triangle(place - begin);
+          Triangle unfolded = v;
+          for (std::uint32_t& vertex : unfolded) vertex = is_unfolded[vertex] ? vertex : no_index;
           std::optional<ClearanceOfTriangle> clearance;
           for (const std::uint32_t other_leaf : nearer) {
             std::uint32_t hits = tree.item_boxes(other_leaf).overlaps(box);
             if (other_leaf == leaf) hits &= ~1u << (place - begin);  // later places only
             // Two that stand around an unfolded vertex meet properly: almost all neighbours.
-            hits = vertices_of_leaf[other_leaf].without(unfolded[place], hits);
+            hits = leaves[other_leaf].without(unfolded, hits);
             for (; hits != 0; hits &= hits - 1) {
-              const std::uint32_t other =
-                  other_leaf * BoundingVolumeTree::leaf_size + static_cast<std::uint32_t>(std::countr_zero(hits));
-              const std::uint32_t t = tree.item_at(place), u = tree.item_at(other);
-              const Triangle &v = triangles[t], &w = triangles[u];
+              const auto k = static_cast<std::uint32_t>(std::countr_zero(hits));
+              const Triangle w = leaves[other_leaf].triangle(k);
               if (!clearance) clearance.emplace(points[v[0]], points[v[1]], points[v[2]]);
               if (clearance->is_kept_by(points[w[0]], points[w[1]], points[w[2]])) continue;
               const PairMeeting meeting = meeting_of(points, v, w);
-              if (meeting != PairMeeting::proper) pairs.push_back({std::min(t, u), std::max(t, u), meeting});
+              if (meeting == PairMeeting::proper) continue;
+              const std::uint32_t t = tree.item_at(place);
+              const std::uint32_t u = tree.item_at(other_leaf * BoundingVolumeTree::leaf_size + k);
+              pairs.push_back({std::min(t, u), std::max(t, u), meeting});
             }
           }
         }

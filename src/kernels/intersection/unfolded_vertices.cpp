@@ -1,9 +1,12 @@
 #include "kernels/intersection/unfolded_vertices.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 
+#include "base/id.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 
@@ -13,23 +16,38 @@ namespace {
 
 constexpr std::size_t largest_fan = 32;
 
-/// Triangles around each point: `corner[first[v]] … corner[first[v + 1] − 1]` are 3 t + k for corner k of triangle t.
-struct Corners {
-  std::vector<std::uint32_t> first, corner;
-};
+/// Triangles by the stretch of point numbers they reach over: few chunks of neighbours have to do with a range of
+/// points. In the worst order every range reads them all, so there are few ranges, whatever the size.
+class TrianglesByPoint {
+ public:
+  explicit TrianglesByPoint(const std::vector<Triangle>& triangles) : triangles_(triangles) {
+    reach_ = parallel_map((triangles.size() + chunk_size - 1) / chunk_size, [&](std::size_t chunk) {
+      std::array<std::uint32_t, 2> reach{no_index, 0};
+      for (std::size_t t = chunk * chunk_size; t < end_of(chunk); ++t)
+        for (const std::uint32_t v : triangles[t]) reach = {std::min(reach[0], v), std::max(reach[1], v)};
+      return reach;
+    });
+  }
 
-Corners corners_by_point(std::size_t point_count, const std::vector<Triangle>& triangles) {
-  Corners by_point{std::vector<std::uint32_t>(point_count + 1, 0), std::vector<std::uint32_t>(3 * triangles.size())};
-  for (const Triangle& t : triangles)
-    for (const std::uint32_t v : t) ++by_point.first[v];
-  std::uint32_t end = 0;
-  for (std::uint32_t& first : by_point.first) first = end += first;
-  // Filled from the back: each start moves down to where it belongs.
-  for (std::size_t t = triangles.size(); t-- > 0;)
-    for (std::uint32_t k = 3; k-- > 0;)
-      by_point.corner[--by_point.first[triangles[t][k]]] = static_cast<std::uint32_t>(3 * t) + k;
-  return by_point;
-}
+  /// Calls visit(v, 3 t + k) for every corner k of a triangle t at a point begin ≤ v < end, ascending.
+  template <class Visit>
+  void visit_corners(std::size_t begin, std::size_t end, Visit&& visit) const {
+    for (std::size_t chunk = 0; chunk < reach_.size(); ++chunk) {
+      if (reach_[chunk][1] < begin || reach_[chunk][0] >= end) continue;
+      for (std::size_t t = chunk * chunk_size; t < end_of(chunk); ++t)
+        for (std::uint32_t k = 0; k < 3; ++k)
+          if (const std::uint32_t v = triangles_[t][k]; v >= begin && v < end)
+            visit(v, static_cast<std::uint32_t>(3 * t) + k);
+    }
+  }
+
+ private:
+  static constexpr std::size_t chunk_size = 2048;
+  std::size_t end_of(std::size_t chunk) const { return std::min(triangles_.size(), (chunk + 1) * chunk_size); }
+
+  const std::vector<Triangle>& triangles_;
+  std::vector<std::array<std::uint32_t, 2>> reach_;  ///< per chunk: least and greatest point
+};
 
 struct Fan {
   std::array<std::uint32_t, largest_fan + 1> around;  ///< neighbours in order; the first again at the end when closed
@@ -88,29 +106,37 @@ bool is_unfolded_along(const std::vector<Vec3>& points, const Vec3& apex, const 
 }  // namespace
 
 std::vector<char> find_unfolded_vertices(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles) {
-  const Corners by_point = corners_by_point(points.size(), triangles);
+  const TrianglesByPoint by_point(triangles);
   std::vector<char> is_unfolded(points.size(), 0);
-  parallel_ranges(points.size(), 4096, [&](std::size_t begin, std::size_t end) {
-    std::array<std::uint32_t, largest_fan> from, to;
-    Fan fan;
-    for (std::size_t v = begin; v < end; ++v) {
-      const std::size_t count = by_point.first[v + 1] - by_point.first[v];
-      if (count == 0 || count > largest_fan) continue;
-      for (std::size_t i = 0; i < count; ++i) {
-        const std::uint32_t corner = by_point.corner[by_point.first[v] + i], k = corner % 3;
-        const Triangle& t = triangles[corner / 3];
-        from[i] = t[k == 2 ? 0 : k + 1];
-        to[i] = t[k == 0 ? 2 : k - 1];
-      }
-      if (!put_in_order({from.data(), count}, {to.data(), count}, fan)) continue;
-      // Most likely along the axis nearest the normal of one of them; a crease may need another.
-      const Vec3 normal = cross(points[from[0]] - points[v], points[to[0]] - points[v]);
-      const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
-      const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
-      for (int turn = 0; turn < 3 && !is_unfolded[v]; ++turn)
-        is_unfolded[v] = is_unfolded_along(points, points[v], fan, (axis + turn) % 3);
-    }
-  });
+  parallel_ranges(points.size(), std::max<std::size_t>(4096, points.size() / 24),
+                  [&](std::size_t begin, std::size_t end) {
+                    std::vector<std::uint32_t> last(end - begin, 0);  // per point the end of its corners
+                    by_point.visit_corners(begin, end, [&](std::size_t v, std::uint32_t) { ++last[v - begin]; });
+                    std::uint32_t sum = 0;
+                    for (std::uint32_t& place : last) sum += std::exchange(place, sum);
+                    std::vector<std::uint32_t> corners(sum);
+                    by_point.visit_corners(
+                        begin, end, [&](std::size_t v, std::uint32_t corner) { corners[last[v - begin]++] = corner; });
+                    std::array<std::uint32_t, largest_fan> from, to;
+                    Fan fan;
+                    for (std::size_t v = begin; v < end; ++v) {
+                      const std::uint32_t first = v == begin ? 0 : last[v - begin - 1], count = last[v - begin] - first;
+                      if (count == 0 || count > largest_fan) continue;
+                      for (std::size_t i = 0; i < count; ++i) {
+                        const std::uint32_t corner = corners[first + i], k = corner % 3;
+                        const Triangle& t = triangles[corner / 3];
+                        from[i] = t[k == 2 ? 0 : k + 1];
+                        to[i] = t[k == 0 ? 2 : k - 1];
+                      }
+                      if (!put_in_order({from.data(), count}, {to.data(), count}, fan)) continue;
+                      // Most likely along the axis nearest the normal of one of them; a crease may need another.
+                      const Vec3 normal = cross(points[from[0]] - points[v], points[to[0]] - points[v]);
+                      const double x = std::abs(normal.x), y = std::abs(normal.y), z = std::abs(normal.z);
+                      const int axis = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2);
+                      for (int turn = 0; turn < 3 && !is_unfolded[v]; ++turn)
+                        is_unfolded[v] = is_unfolded_along(points, points[v], fan, (axis + turn) % 3);
+                    }
+                  });
   return is_unfolded;
 }
 

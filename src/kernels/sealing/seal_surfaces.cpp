@@ -66,10 +66,7 @@ double sealing_distance_m(const TriangleSoup& soup, const SealSurfacesOptions& o
   return options.distance_m ? *options.distance_m : options.distance_ratio * box_of(soup).diagonal_m();
 }
 
-namespace {
-
-/// Which gaps may be larger than others: the contacts "A -> B within d".
-std::vector<NamedContact> with_distance(const std::vector<std::string>& contacts) {
+std::vector<NamedContact> contacts_with_distance(const std::vector<std::string>& contacts) {
   std::vector<NamedContact> named;
   for (const std::string& text : contacts) {
     const std::size_t arrow = text.find(" -> "), within = text.find(" within ");
@@ -80,11 +77,13 @@ std::vector<NamedContact> with_distance(const std::vector<std::string>& contacts
   return named;
 }
 
+namespace {
+
 class Sealer {
  public:
   Sealer(const TriangleSoup& soup, const CutSurfacesOptions& cut, const SealSurfacesOptions& options)
       : input_(soup), options_(options), cutting_(cut) {
-    extend_ = {sealing_distance_m(soup, options), with_distance(options.contacts)};
+    extend_ = {sealing_distance_m(soup, options), contacts_with_distance(options.contacts)};
     constexpr double mitre = 1.5;  // a corner juts out further than its sides
     trim_distance_.assign(soup.entities.size(), mitre * extend_.distance_m);
     for (const NamedContact& contact : extend_.contacts)

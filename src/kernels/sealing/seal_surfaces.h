@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "kernels/cutting/cut_surfaces.h"
+#include "kernels/sealing/extend_borders.h"
 #include "model/cut_result.h"
 #include "model/triangle_soup.h"
 
@@ -36,6 +37,9 @@ Result<CutResult> seal_surfaces(const TriangleSoup& soup, const CutSurfacesOptio
 /// merges micro-regions. The report goes on from that of the cut.
 Result<CutResult> seal_cut_surfaces(const CutResult& cut, const CutSurfacesOptions& cutting = {},
                                     const SealSurfacesOptions& options = {});
+
+/// Which gaps may be larger than others: the contacts of the form "A -> B within d".
+std::vector<NamedContact> contacts_with_distance(const std::vector<std::string>& contacts);
 
 /// The sealing distance in metres that the options mean for these surfaces.
 double sealing_distance_m(const TriangleSoup& soup, const SealSurfacesOptions& options);

@@ -9,6 +9,7 @@
 #include "kernels/intersection/bounding_volume_tree.h"
 #include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/building/edge_table.h"
+#include "kernels/topology/keep_triangles.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {

@@ -17,7 +17,4 @@ struct WeldedSoup {
   explicit WeldedSoup(const TriangleSoup& soup);
 };
 
-/// Leaves only the triangles marked, one mark per triangle, in their order.
-void keep_triangles(TriangleSoup& soup, const std::vector<char>& is_kept);
-
 }  // namespace strataflow

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "kernels/sealing/welded_soup.h"
 #include "kernels/topology/building/weld_points.h"
+#include "kernels/topology/keep_triangles.h"
 
 namespace strataflow {
 

@@ -125,6 +125,14 @@ TEST(HtmlPage, draws_a_bar_per_bin) {
   EXPECT_NO_THROW((void)svg_histogram(Distribution()));
 }
 
+TEST(HtmlPage, draws_a_falling_curve_from_its_highest_to_its_lowest_value) {
+  const std::string svg = svg_curve({100, 10, 1}, "energy");
+  EXPECT_NE(svg.find("0.00,0.00 150.00,55.00 300.00,110.00"), std::string::npos);
+  EXPECT_NE(svg.find("energy, 3 steps"), std::string::npos);
+  EXPECT_NO_THROW((void)svg_curve({}, "nothing"));
+  EXPECT_NO_THROW((void)svg_curve({5}, "one"));
+}
+
 TEST(DiffRuns, names_what_is_no_run_folder_or_no_report) {
   const support::ScratchFolder scratch;
   EXPECT_EQ(first_difference(scratch.path(), scratch.path()).failure().code, FailureCode::unreadable_file);

@@ -138,6 +138,10 @@ TEST_F(Batch, seals_a_raw_model_and_reports_what_it_did) {
     for (const auto& stage : json["stages"])
       for (const auto& warning : stage["warnings"]) contacts += warning["kind"] == "contact_made";
     EXPECT_GT(contacts, 0u) << "three horizons on two faults and four walls";
+    std::size_t changes = 0;
+    for (const auto& change : json["cut"]["changes"])
+      changes += change["kind"] == "contact_made" && !change["what"].empty() && !change["why"].empty();
+    EXPECT_GE(changes, contacts) << "told beside everything else that was changed";
   }
 }
 

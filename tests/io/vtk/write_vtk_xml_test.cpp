@@ -25,6 +25,15 @@ TEST(WriteVtkXml, volumes_come_back_bit_for_bit) {
   EXPECT_EQ(archived(again), archived(mesh));
 }
 
+TEST(WriteVtkXml, cells_carry_further_fields_of_the_right_length) {
+  const VolumeMesh mesh = two_region_mesh();
+  const std::vector<CellField> fields{{"elements", {1, 2, 3, 4, 5}}, {"torn", {1}}};
+  const std::string bytes = write_vtu(mesh, fields);
+  EXPECT_NE(bytes.find("\"elements\""), std::string::npos);
+  EXPECT_EQ(bytes.find("\"torn\""), std::string::npos);
+  EXPECT_EQ(write_vtu(mesh), write_vtu(mesh, {}));
+}
+
 TEST(WriteVtkXml, facets_are_polygons_with_the_points_of_the_mesh) {
   const VolumeMesh mesh = two_region_mesh();
   const std::string bytes = write_facets_vtp(mesh);

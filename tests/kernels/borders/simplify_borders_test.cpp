@@ -157,6 +157,68 @@ TEST(SimplifyBorders, keeps_a_face_that_would_vanish) {
   EXPECT_TRUE(find_intersections(simplified->soup.points, simplified->soup.triangles).empty());
 }
 
+void expect_refused(const TriangleSoup& soup, BorderRefusal reason) {
+  const Result<SimplifiedSoup> simplified = simplify_borders(soup, {1, 180});
+  ASSERT_TRUE(simplified);
+  EXPECT_EQ(simplified->report.resampled_borders, 0u);
+  ASSERT_EQ(simplified->report.refused.size(), 1u);
+  EXPECT_EQ(simplified->report.refused[0].reason, reason);
+  EXPECT_EQ(digest(simplified->soup), digest(support::weld(soup))) << "left as it was";
+}
+
+TEST(SimplifyBorders, refuses_a_contact_whose_surfaces_would_change_their_order) {  // euler1999 figure 4-13
+  TriangleSoup soup;
+  const std::uint32_t sheet = support::add_patch(soup, "sheet"), fan = support::add_patch(soup, "fan");
+  const Vec3 nodes[] = {{0, 3, 0}, {1, 3, 1}, {2, 3, 0}, {3, 3, 0}};  // the contact
+  for (int i = 0; i < 3; ++i) support::add_triangle(soup, fan, nodes[i], nodes[i + 1], {6, 4, 1});
+  const Vec3 low[] = {{1, 2, 0}, {2, 2, -1}, {3, 2, 0}}, high[] = {{1, 4, 0}, {2, 4, 1}};
+  support::add_triangle(soup, sheet, low[0], nodes[1], nodes[0]);
+  support::add_triangle(soup, sheet, low[0], nodes[2], nodes[1]);
+  support::add_triangle(soup, sheet, low[0], low[1], nodes[2]);
+  support::add_triangle(soup, sheet, low[1], low[2], nodes[2]);
+  support::add_triangle(soup, sheet, low[2], nodes[3], nodes[2]);
+  support::add_triangle(soup, sheet, nodes[0], nodes[1], high[0]);
+  support::add_triangle(soup, sheet, nodes[1], nodes[2], high[0]);
+  support::add_triangle(soup, sheet, nodes[2], high[1], high[0]);
+  support::add_triangle(soup, sheet, nodes[2], nodes[3], high[1]);
+  expect_refused(soup, BorderRefusal::reordered);
+}
+
+TEST(SimplifyBorders, refuses_a_contact_whose_surfaces_would_meet_elsewhere) {
+  TriangleSoup soup;
+  const std::uint32_t first = support::add_patch(soup, "first"), second = support::add_patch(soup, "second");
+  const Vec3 p[] = {{0, 0, -0.5},         {1.125, 0, -0.25},      {2.125, -0.25, 0.5}, {3.125, 0.75, -0.75},
+                    {0.25, 0.875, 0.125}, {0.875, 0.875, -0.375}, {2, 1.125, 0},       {-0.125, 1.875, 0.75},
+                    {1.125, 2.125, -0.5}, {1.75, 2.125, -0.625},  {2, 2.75, -0.125},   {1.125, 2.875, -0.625}};
+  for (const auto& [a, b, c] :
+       std::vector<Triangle>{{0, 1, 5}, {0, 5, 4}, {1, 2, 6}, {1, 6, 5}, {2, 3, 6}, {6, 9, 8}, {6, 3, 9}})
+    support::add_triangle(soup, first, p[a], p[b], p[c]);
+  for (const auto& [a, b, c] :
+       std::vector<Triangle>{{4, 5, 7}, {5, 8, 7}, {5, 6, 8}, {7, 8, 11}, {8, 9, 10}, {8, 10, 11}})
+    support::add_triangle(soup, second, p[a], p[b], p[c]);
+  expect_refused(soup, BorderRefusal::pinched);
+}
+
+TEST(SimplifyBorders, refuses_a_contact_that_would_swallow_a_surface) {
+  // A contact that winds, and a closed body whose corners are nodes of its middle: they would all become one node.
+  TriangleSoup soup;
+  const std::uint32_t left = support::add_patch(soup, "left"), right = support::add_patch(soup, "right");
+  constexpr int n = 14;
+  const auto node = [](int i) { return Vec3{1.0 * i, 0.02 * (i - 7) * (i - 7), 0.01 * (i - 7) * (i - 7) * (i - 7)}; };
+  for (int i = 0; i < n; ++i) {
+    support::add_triangle(soup, left, node(i), node(i + 1), {7, 9, 0});
+    support::add_triangle(soup, right, node(i + 1), node(i), {7, -9, 0});
+  }
+  ASSERT_EQ(simplify_borders(soup, {1, 180})->report.resampled_borders, 1u) << "alone it can be simplified";
+  const std::uint32_t body = support::add_patch(soup, "body");
+  const Vec3 a = node(4), b = node(6), c = node(8), d = node(10);
+  support::add_triangle(soup, body, a, b, c);
+  support::add_triangle(soup, body, b, a, d);
+  support::add_triangle(soup, body, c, b, d);
+  support::add_triangle(soup, body, a, c, d);
+  expect_refused(soup, BorderRefusal::emptied);
+}
+
 TEST(SimplifyBorders, interpolates_values_at_new_nodes) {
   TriangleSoup soup = support::three_strips();
   soup.properties.push_back({"x", "m", 1, {}});

@@ -48,6 +48,26 @@ INSTANTIATE_TEST_SUITE_P(GapsAndOvershoots, ConstrainedCutOfABox,
                          testing::Combine(testing::Values(1e-6, 1e-3, 0.1, 0.3, -1e-6, -1e-3, -0.1),
                                           testing::Values(1u, 4u, 7u)));
 
+TEST(ConstrainedCut, a_corner_goes_to_where_its_controllers_cross_not_to_the_corner_of_another_contact) {
+  TriangleSoup raw;  // F1 pokes through South, sharing nothing with it
+  add_grid(raw, add_patch(raw, "F1", Role::fault), 3, 3, [](double u, double v) { return Vec3{5, 8 * u - 2, 8 * v}; });
+  add_grid(raw, add_patch(raw, "South", Role::boundary), 4, 3,
+           [](double u, double v) { return Vec3{10 * u, 0, 8 * v}; });
+  std::vector<std::string> contacts;
+  for (const auto& [name, z] : {std::pair{"H1", 3.0}, {"H2", 5.0}}) {
+    add_grid(raw, add_patch(raw, name, Role::horizon), 3, 3,
+             [z = z](double u, double v) { return Vec3{1 + 4.3 * u, 3 * v - 0.3, z}; });
+    for (const char* onto : {"F1", "South"}) contacts.push_back(std::string(name) + " -> " + onto + " within 0.4");
+  }
+  const Result<FoundContacts> named = name_contacts(raw, contacts, {});
+  ASSERT_TRUE(named) << describe(named.failure());
+  const ConstrainedCut result = cut(raw, named->constraints);
+  EXPECT_EQ(failures(result), "");
+  const std::uint32_t h2 = 3;
+  for (const Vec3& p : support::positions_of(result.soup, h2)) EXPECT_NEAR(p.z, 5, 1e-9);
+  for (const ContactReport& report : result.borders) EXPECT_LT(report.max_move_m, 0.5);
+}
+
 TEST(ConstrainedCut, a_half_horizon_pulled_along_x_closes_the_leak) {
   // Test 2 of euler1999 §4.2 to the letter: only the left half stops short, at x = 4.9, and is led along +x.
   TriangleSoup raw = raw_box(1e-3, 3);

@@ -48,6 +48,22 @@ TEST(RepairRounding, leads_an_edge_through_a_vertex_in_reach_in_all_its_triangle
   EXPECT_TRUE(find_intersections(mesh.points, mesh.triangles).empty());
 }
 
+TEST(RepairRounding, splits_the_longest_edge_of_a_sliver_so_that_slivers_do_not_flip_to_and_fro) {
+  // Points 0, 1, 2, 3 lie along a line but for rounding. Between its long edge 0–3 and the chain are two slivers, on
+  // the chain stand two triangles of another surface, and triangle 4 is the sliver's neighbour.
+  CutMesh mesh = mesh_of({{0, 0, 0}, {1, 0.25 * small, small}, {2, small, 0}, {3, 0, 0}, {1.5, 0.3, -4}, {1.5, -4, 0}},
+                         {{0, 2, 1}, {0, 3, 2}, {2, 1, 4}, {4, 1, 0}, {3, 0, 5}});
+  ASSERT_FALSE(find_intersections(mesh.points, mesh.triangles).empty());
+  EXPECT_GT(repaired(mesh, 1e-11).split_edges, 0u);
+  const auto has_edge = [&](std::uint32_t a, std::uint32_t b) {
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+      return std::count(t.begin(), t.end(), a) + std::count(t.begin(), t.end(), b) == 2;
+    });
+  };
+  EXPECT_FALSE(has_edge(0, 3));
+  EXPECT_EQ(std::count(mesh.origin.begin(), mesh.origin.end(), 4u), 2) << "the neighbour gets the vertex too";
+}
+
 TEST(RepairRounding, leads_a_triangle_through_a_vertex_in_reach) {
   CutMesh mesh =
       mesh_of({{0, 0, 0}, {3, 0, 0}, {0, 3, 0}, {1, 1, small}, {1, 1.1, -1}, {1, 0.9, -1}}, {{0, 1, 2}, {3, 4, 5}});

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "base/seed.h"
 #include "kernels/intersection/find_intersections.h"
 
@@ -74,6 +77,41 @@ TEST(UnfoldedVertices, passes_every_vertex_of_a_wavy_sheet_and_its_border) {
       triangles.push_back({a, a + 10, a + 1});
     }
   EXPECT_EQ(find_unfolded_vertices(points, triangles), std::vector<char>(points.size(), 1));
+}
+
+/// Points beyond what one task looks at, some of them folded, asked for in two numberings of points and triangles.
+TEST(UnfoldedVertices, does_not_depend_on_how_a_large_sheet_is_numbered) {
+  constexpr std::uint32_t n = 160;
+  RandomStream random(7);
+  std::vector<Vec3> points;
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; i <= n; ++i)
+    for (std::uint32_t j = 0; j <= n; ++j)
+      points.push_back({i + (random.below(9) == 0 ? 2.5 : 0.0), 1.0 * j, 0.3 * static_cast<double>(random.below(8))});
+  for (std::uint32_t i = 0; i < n; ++i)
+    for (std::uint32_t j = 0; j < n; ++j) {
+      const std::uint32_t a = (n + 1) * i + j, b = a + n + 1;
+      triangles.push_back({a, b, b + 1});
+      triangles.push_back({a, b + 1, a + 1});
+    }
+  const std::vector<char> expected = find_unfolded_vertices(points, triangles);
+  const auto passed = std::count(expected.begin(), expected.end(), 1);
+  EXPECT_GT(passed, 4000);
+  EXPECT_GT(static_cast<std::ptrdiff_t>(points.size()) - passed, 4000);
+  const auto shuffled = [&](std::size_t count) {
+    std::vector<std::uint32_t> place(count);
+    std::iota(place.begin(), place.end(), 0u);
+    for (std::size_t i = count; i > 1; --i) std::swap(place[i - 1], place[random.below(i)]);
+    return place;
+  };
+  const std::vector<std::uint32_t> number = shuffled(points.size()), order = shuffled(triangles.size());
+  std::vector<Vec3> other_points(points.size());
+  for (std::size_t v = 0; v < points.size(); ++v) other_points[number[v]] = points[v];
+  std::vector<Triangle> other_triangles;
+  for (const std::uint32_t t : order)
+    other_triangles.push_back({number[triangles[t][0]], number[triangles[t][1]], number[triangles[t][2]]});
+  const std::vector<char> found = find_unfolded_vertices(other_points, other_triangles);
+  for (std::size_t v = 0; v < points.size(); ++v) ASSERT_EQ(found[number[v]], expected[v]) << "point " << v;
 }
 
 TEST(UnfoldedVertices, leaves_out_a_fan_that_turns_twice) {

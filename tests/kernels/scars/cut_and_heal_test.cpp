@@ -1,12 +1,18 @@
 // The numeric experiment of euler1999 §2.5.3 and §4.2 test 5: a clean split along a sine, healed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 #include <random>
+#include <set>
 
+#include "kernels/cutting/cut_surfaces.h"
 #include "kernels/intersection/find_intersections.h"
+#include "kernels/scars/drop_unused_points.h"
 #include "kernels/scars/remove_scars.h"
 #include "support/clean_split.h"
+#include "support/shapes.h"
 
 namespace strataflow {
 namespace {
@@ -204,6 +210,58 @@ TEST(CutAndHeal, slits_that_cross_are_removed_one_after_another_with_at_most_thi
   EXPECT_GE(static_cast<double>(back), 0.97 * static_cast<double>(crossed));
   EXPECT_GT(erased, 3000u);
   EXPECT_LE(static_cast<double>(calls), 0.30 * static_cast<double>(erased));
+}
+
+/// The cutter's own marks: what it inserted into a horizon goes again, whatever else it cut.
+TEST(CutAndHeal, undoes_what_the_cutter_marked_in_one_surface) {
+  const TriangleSoup sheet = support::jittered_sheet(20, 4);
+  TriangleSoup soup = sheet;
+  const std::uint32_t fault = support::add_patch(soup, "F", Role::fault);
+  support::add_quad(soup, fault, {4.2, 3.1, -5}, {15.3, 16.9, -5}, {15.3, 16.9, 5}, {4.2, 3.1, 5});
+  Result<CutResult> cut = cut_surfaces(soup, {.mark_inserted = true});
+  ASSERT_TRUE(cut);
+  // The horizon alone: another surface at a node would hold it.
+  TriangleSoup horizon = cut->soup;
+  horizon.triangles.clear();
+  horizon.triangle_patch.clear();
+  for (std::size_t t = 0; t < cut->soup.triangles.size(); ++t)
+    if (cut->soup.patch_entity[cut->soup.triangle_patch[t]] == 0) {
+      horizon.triangles.push_back(cut->soup.triangles[t]);
+      horizon.triangle_patch.push_back(cut->soup.triangle_patch[t]);
+    }
+  drop_unused_points(horizon, std::vector<char>(horizon.points.size(), 0));
+  ASSERT_GT(horizon.points.size(), sheet.points.size() + 20);
+  ASSERT_EQ(horizon.properties.size(), 1u);
+  ScarMarks marks;
+  for (const double value : horizon.properties[0].values) marks.inserted_by_cut.push_back(value > 0.5);
+  const Result<HealedSoup> healed = remove_scars(horizon, marks);
+  ASSERT_TRUE(healed);
+  EXPECT_EQ(healed->soup.points.size(), sheet.points.size());
+  EXPECT_EQ(healed->soup.triangles.size(), sheet.triangles.size());
+  EXPECT_TRUE(find_intersections(healed->soup.points, healed->soup.triangles).empty());
+  const Result<HealedSoup> unmarked = remove_scars(horizon);
+  ASSERT_TRUE(unmarked);
+  EXPECT_EQ(unmarked->soup.points.size(), horizon.points.size()) << "without marks there is no slit to heal";
+}
+
+/// Cut again, by code that does not ask for marks: the first cut's stay and the second's are added.
+TEST(CutAndHeal, keeps_marks_up_to_date_when_cut_again) {
+  TriangleSoup soup = support::jittered_sheet(10, 4);
+  support::add_quad(soup, support::add_patch(soup, "F"), {2.2, 1.1, -5}, {7.3, 8.9, -5}, {7.3, 8.9, 5}, {2.2, 1.1, 5});
+  TriangleSoup once = cut_surfaces(soup, {.mark_inserted = true})->soup;
+  const auto marked = [](const TriangleSoup& of) {
+    std::set<std::array<double, 3>> places;
+    for (std::size_t v = 0; v < of.points.size(); ++v)
+      if (of.properties.at(0).values[v] > 0.5) places.insert({of.points[v].x, of.points[v].y, of.points[v].z});
+    return places;
+  };
+  const auto first = marked(once);
+  support::add_quad(once, support::add_patch(once, "G"), {7.2, 1.3, -5}, {2.3, 8.7, -5}, {2.3, 8.7, 5}, {7.2, 1.3, 5});
+  once.properties[0].values.resize(once.points.size(), 0);
+  const TriangleSoup twice = cut_surfaces(once)->soup;
+  const auto second = marked(twice);
+  EXPECT_GT(second.size(), first.size());
+  EXPECT_TRUE(std::includes(second.begin(), second.end(), first.begin(), first.end()));
 }
 
 }  // namespace

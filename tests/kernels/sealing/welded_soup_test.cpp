@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kernels/topology/keep_triangles.h"
 #include "support/shapes.h"
 
 namespace strataflow {

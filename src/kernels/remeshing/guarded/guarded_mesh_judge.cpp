@@ -1,0 +1,220 @@
+// What GuardedMesh asks before it takes a step.
+#include <algorithm>
+#include <cmath>
+
+#include "kernels/adapters/cgal/exact_predicates.h"
+#include "kernels/intersection/triangle_pair.h"
+#include "kernels/remeshing/guarded/guarded_mesh.h"
+#include "kernels/remeshing/guarded/triangle_corners.h"
+#include "kernels/topology/building/radial_order.h"
+
+namespace strataflow {
+
+namespace {
+
+/// A triangle whose smallest angle has this sine (35°) or more is good; the shortfall of others counts.
+constexpr double good_quality = 0.5735764363510461;
+/// No new triangle is ever worse than this, so that rounding cannot make it one without area.
+constexpr double worst_quality = 1e-6;
+
+double shortfall_of(double quality) {
+  const double missing = good_quality - quality;
+  return missing > 0 ? missing * missing : 0;
+}
+
+}  // namespace
+
+Verdict GuardedMesh::judge(const ShapeDemand& demand, bool is_inside_surface) {
+  if (!keeps_shape(demand)) return Verdict::shape;
+  if (!keeps_direction()) return Verdict::turned;
+  if (has_new_ear()) return Verdict::topology;
+  if (!keeps_samples()) return Verdict::strayed;
+  // On a side of the box triangles of one sense that fill the same polygon cannot overlap, and nothing else is there.
+  const bool cannot_cross = is_inside_surface && inputs_.is_outermost(surface_of_[removed_[0].triangle]);
+  if (!cannot_cross && !keeps_apart()) return Verdict::crossing;
+  if (!keeps_radial_order()) return Verdict::reordered;
+  return Verdict::done;
+}
+
+bool GuardedMesh::keeps_shape(const ShapeDemand& demand) const {
+  double worst_before = 1, worst = 1, shortfall_before = 0, shortfall = 0;
+  for (const Removed& r : removed_) {
+    worst_before = std::min(worst_before, r.quality);
+    shortfall_before += shortfall_of(r.quality);
+  }
+  for (const Added& a : added_) {
+    const double q = quality_of(points_[a.corners[0]], points_[a.corners[1]], points_[a.corners[2]]);
+    worst = std::min(worst, q);
+    shortfall += shortfall_of(q);
+  }
+  if (!(worst > worst_quality)) return false;
+  if (worst < demand.floor && worst < worst_before) return false;
+  if (demand.must_improve && !(shortfall < shortfall_before * (1 - 1e-3))) return false;
+  return !demand.must_raise_worst || worst > worst_before * (1 + 1e-6);
+}
+
+bool GuardedMesh::keeps_direction() {
+  turns_.clear();
+  const auto turn_of = [&](std::uint32_t surface) -> SurfaceTurn& {
+    for (SurfaceTurn& turn : turns_)
+      if (turn.surface == surface) return turn;
+    return turns_.emplace_back(SurfaceTurn{surface, {}, 1});
+  };
+  for (const Removed& r : removed_) {
+    SurfaceTurn& turn = turn_of(surface_of_[r.triangle]);
+    turn.normal = turn.normal + r.normal;
+  }
+  for (SurfaceTurn& turn : turns_) {
+    const double whole = length(turn.normal);
+    if (whole > 0) turn.normal = (1 / whole) * turn.normal;
+    turn.least_cos = cos_turn_;
+  }
+  for (const Removed& r :
+       removed_)  // a rough place may stay as rough as it is; needles point anywhere and do not count
+    if (r.quality > 0.1) {
+      SurfaceTurn& turn = turn_of(surface_of_[r.triangle]);
+      turn.least_cos = std::min(turn.least_cos, dot(r.normal, turn.normal) / length(r.normal));
+    }
+  for (const Added& added : added_) {
+    const std::uint32_t surface = surface_of_[removed_[added.parent].triangle];
+    const Vec3 &a = points_[added.corners[0]], &b = points_[added.corners[1]], &c = points_[added.corners[2]];
+    if (const int axis = inputs_.flat_axis(surface); axis >= 0) {
+      if (orientation_2d(a, b, c, axis) != flat_turn_[surface]) return false;
+      continue;
+    }
+    const SurfaceTurn& turn = turn_of(surface);
+    const Vec3 normal = cross(b - a, c - a);
+    if (!(dot(normal, turn.normal) >= turn.least_cos * length(normal) * (1 - 1e-9))) return false;
+  }
+  return true;
+}
+
+bool GuardedMesh::is_ear(const Triangle& t) const {
+  if (kind_[t[0]] == VertexKind::surface || kind_[t[1]] == VertexKind::surface || kind_[t[2]] == VertexKind::surface)
+    return false;
+  const std::uint32_t ab = line_of_edge(t[0], t[1]), bc = line_of_edge(t[1], t[2]), ca = line_of_edge(t[2], t[0]);
+  return (ab != no_index && (ab == bc || ab == ca)) || (bc != no_index && bc == ca);
+}
+
+bool GuardedMesh::has_new_ear() const {
+  int ears = 0;
+  for (const Added& a : added_) ears += is_ear(a.corners);
+  if (ears == 0) return false;
+  for (const Removed& r : removed_) ears -= is_ear(triangles_[r.triangle]);
+  return ears > 0;
+}
+
+bool GuardedMesh::keeps_samples() {
+  sample_moves_.clear();
+  const double most = options_.distance_m * options_.distance_m, near_enough = most / 256;
+  for (const Removed& r : removed_) {
+    const std::uint32_t surface = surface_of_[r.triangle];
+    for (std::uint32_t s = first_sample_[r.triangle]; s != no_index; s = next_sample_[s]) {
+      const Vec3& p = samples_[s];
+      double best = std::numeric_limits<double>::infinity();
+      std::uint32_t nearest = 0;
+      for (std::uint32_t k = 0; k < added_.size(); ++k) {
+        const Added& added = added_[k];
+        if (surface_of_[removed_[added.parent].triangle] != surface) continue;
+        const double square =
+            square_distance(p, points_[added.corners[0]], points_[added.corners[1]], points_[added.corners[2]]);
+        if (!(square < best)) continue;
+        best = square;
+        nearest = k;
+        if (square < near_enough) break;
+      }
+      if (!(best <= most)) return false;
+      sample_moves_.push_back({s, nearest});
+    }
+  }
+  return true;
+}
+
+bool GuardedMesh::jumps_over_piece(FloatBox around) const {
+  if (pieces_.empty()) return false;
+  for (const Removed& r : removed_) widen(around, grid_.box(r.triangle));
+  const std::uint32_t own = piece_of_[surface_of_[removed_[0].triangle]];
+  for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
+    if (p == own || !overlap(pieces_[p], around)) continue;
+    bool fits = true;
+    for (int axis = 0; axis < 3; ++axis)
+      fits &= pieces_[p].high[axis] - pieces_[p].low[axis] <= around.high[axis] - around.low[axis];
+    if (fits) return true;
+  }
+  return false;
+}
+
+bool GuardedMesh::keeps_apart() {
+  FloatBox around = FloatBox::nothing();
+  for (const Added& a : added_) widen(around, a.box);
+  for (std::size_t i = 0; i < added_.size(); ++i)
+    for (std::size_t j = i + 1; j < added_.size(); ++j)
+      if (overlap(added_[i].box, added_[j].box) &&
+          meeting_of(points_, added_[i].corners, added_[j].corners) != PairMeeting::proper)
+        return false;
+  if (jumps_over_piece(around)) return false;
+  const std::uint32_t mark = new_mark();
+  bool is_apart = true;
+  grid_.visit(around, [&](std::uint32_t t) {
+    if (!is_apart || is_removed(t) || seen_mark_[t] == mark) return;
+    seen_mark_[t] = mark;
+    for (const Added& a : added_)
+      if (overlap(a.box, grid_.box(t)) && meeting_of(points_, a.corners, triangles_[t]) != PairMeeting::proper) {
+        is_apart = false;
+        return;
+      }
+  });
+  return is_apart;
+}
+
+bool GuardedMesh::has_radial_order(std::uint32_t line, std::uint32_t a, std::uint32_t b) {
+  if (!is_in_line_order(line, a, b)) std::swap(a, b);
+  leaf_points_.assign({points_[a], points_[b]});
+  leaf_triangles_.clear();
+  leaf_half_edges_.clear();
+  leaf_words_.clear();
+  const auto take = [&](const Triangle& t, std::uint32_t surface) {
+    const auto n = static_cast<std::uint32_t>(leaf_triangles_.size());
+    leaf_points_.push_back(points_[third_of(t, a, b)]);
+    leaf_triangles_.push_back({0, 1, n + 2});
+    leaf_half_edges_.push_back(3 * n);
+    leaf_words_.push_back(2 * surface + runs_along(t, a, b));
+  };
+  visit_star(a, [&](std::uint32_t t) {
+    if (!is_removed(t) && has(triangles_[t], b)) take(triangles_[t], surface_of_[t]);
+  });
+  for (const Added& added : added_)
+    if (has(added.corners, a) && has(added.corners, b))
+      take(added.corners, surface_of_[removed_[added.parent].triangle]);
+  const RadialOrder order = radial_order(leaf_points_, leaf_triangles_, leaf_half_edges_);
+  if (order.is_ambiguous) {
+    leaf_words_.clear();
+    return false;
+  }
+  std::vector<std::uint32_t> words(leaf_words_.size());
+  for (std::size_t k = 0; k < words.size(); ++k) words[k] = leaf_words_[order.half_edges[k] / 3];
+  leaf_words_ = words;
+  const std::vector<std::uint32_t>& wanted = radial_[line];
+  if (words.size() != wanted.size()) return false;
+  for (std::size_t shift = 0; shift < words.size(); ++shift) {
+    bool is_same = true;
+    for (std::size_t k = 0; is_same && k < words.size(); ++k) is_same = words[(k + shift) % words.size()] == wanted[k];
+    if (is_same) return true;
+  }
+  return false;
+}
+
+bool GuardedMesh::keeps_radial_order() {
+  for (const Added& added : added_)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = added.corners[k], b = added.corners[(k + 1) % 3], line = line_of_edge(a, b);
+      if (line == no_index || radial_[line].empty()) continue;
+      const bool was_seen = std::any_of(static_cast<const Added*>(added_.data()), &added, [&](const Added& other) {
+        return has(other.corners, a) && has(other.corners, b);
+      });
+      if (!was_seen && !has_radial_order(line, a, b)) return false;
+    }
+  return true;
+}
+
+}  // namespace strataflow

@@ -1,0 +1,320 @@
+#include "kernels/remeshing/guarded/relax_guarded.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "base/seed.h"
+
+namespace strataflow {
+
+namespace {
+
+constexpr double sine_20_deg = 0.3420201433256687, sine_30_deg = 0.5;
+constexpr double longest_share = 4.0 / 3, shortest_share = 4.0 / 5;
+constexpr double shape_share =
+    0.8;  ///< of a line vertex's step goes to the shape of triangles, the rest to even spacing
+constexpr int most_sweeps = 16;
+
+struct MeasuredEdge {
+  double length = 0;  ///< as a share of its size
+  std::uint32_t a = 0, b = 0;
+};
+
+template <class Wanted>
+std::vector<MeasuredEdge> edges_where(const GuardedMesh& mesh, Wanted&& wanted) {
+  std::vector<MeasuredEdge> edges;
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!mesh.is_alive(t)) continue;
+    const Triangle& corners = mesh.triangle(t);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = std::min(corners[k], corners[(k + 1) % 3]),
+                          b = std::max(corners[k], corners[(k + 1) % 3]);
+      const double share = length(mesh.point(b) - mesh.point(a)) / (0.5 * (mesh.size_m(a) + mesh.size_m(b)));
+      if (wanted(share)) edges.push_back({share, a, b});
+    }
+  }
+  return edges;
+}
+
+template <class Before>
+void sort_unique(std::vector<MeasuredEdge>& edges, Before&& before) {
+  std::sort(edges.begin(), edges.end(), [&](const MeasuredEdge& x, const MeasuredEdge& y) {
+    if (x.length != y.length) return before(x.length, y.length);
+    return x.a != y.a ? x.a < y.a : x.b < y.b;
+  });
+  edges.erase(std::unique(edges.begin(), edges.end(),
+                          [](const MeasuredEdge& x, const MeasuredEdge& y) { return x.a == y.a && x.b == y.b; }),
+              edges.end());
+}
+
+Vec3 star_centroid(const GuardedMesh& mesh, std::uint32_t v) {
+  Vec3 sum;
+  double whole = 0;
+  const Vec3& p = mesh.point(v);
+  mesh.visit_star(v, [&](std::uint32_t t) {
+    const Triangle& c = mesh.triangle(t);
+    const Vec3 &x = mesh.point(c[0]), &y = mesh.point(c[1]), &z = mesh.point(c[2]);
+    const double area = length(cross(y - x, z - x));
+    sum = sum + area * ((x - p) + (y - p) + (z - p));
+    whole += area;
+  });
+  return whole > 0 ? p + (1 / (3 * whole)) * sum : p;
+}
+
+/// The mean of the places where v would make each of its triangles equilateral.
+Vec3 equilateral_place(const GuardedMesh& mesh, std::uint32_t v) {
+  Vec3 sum;
+  int count = 0;
+  const Vec3& p = mesh.point(v);
+  mesh.visit_star(v, [&](std::uint32_t t) {
+    const Triangle& c = mesh.triangle(t);
+    const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+    const Vec3 a = mesh.point(c[(k + 1) % 3]) - p, b = mesh.point(c[(k + 2) % 3]) - p, n = cross(a, b), along = b - a;
+    const double square = dot(n, n);
+    if (!(square > 0)) return;
+    sum = sum + 0.5 * (a + b) + (0.8660254037844386 / std::sqrt(square)) * cross(n, along);
+    ++count;
+  });
+  return count > 0 ? p + (1.0 / count) * sum : p;
+}
+
+/// Steps of a half, at most three.
+template <class Try>
+bool with_shorter_steps(Try&& attempt) {
+  for (const double share : {1.0, 0.5, 0.25})
+    if (attempt(share) == Verdict::done) return true;
+  return false;
+}
+
+}  // namespace
+
+std::uint64_t split_long_edges(GuardedMesh& mesh) {
+  std::uint64_t done = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::vector<MeasuredEdge> edges = edges_where(mesh, [](double share) { return share > longest_share; });
+    sort_unique(edges, std::greater<>());
+    std::uint64_t now = 0;
+    for (const MeasuredEdge& edge : edges) now += mesh.split_edge(edge.a, edge.b, {}) == Verdict::done;
+    done += now;
+    if (now == 0) break;
+  }
+  return done;
+}
+
+std::uint64_t collapse_short_edges(GuardedMesh& mesh) {
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.floor = sine_20_deg, .longest = longest_share};
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::vector<MeasuredEdge> edges = edges_where(mesh, [](double share) { return share < shortest_share; });
+    sort_unique(edges, std::less<>());
+    std::uint64_t now = 0;
+    for (const MeasuredEdge& edge : edges) {
+      if (!mesh.is_alive_vertex(edge.a) || !mesh.is_alive_vertex(edge.b)) continue;
+      now += mesh.collapse_edge(edge.b, edge.a, demand) == Verdict::done ||
+             mesh.collapse_edge(edge.a, edge.b, demand) == Verdict::done;
+    }
+    done += now;
+    if (now == 0) break;
+  }
+  return done;
+}
+
+std::uint64_t flip_edges(GuardedMesh& mesh, std::uint32_t since) {
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.must_raise_worst = true};
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::uint64_t now = 0;
+    const std::uint32_t start = mesh.step_count();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand) == Verdict::done) {
+          ++now;
+          break;
+        }
+    }
+    done += now;
+    since = start + 1;
+    if (now == 0) break;
+  }
+  return done;
+}
+
+std::uint64_t even_valences(GuardedMesh& mesh, std::uint32_t since) {
+  // Triangles of one surface at a vertex, less what there should be: six, three on a line, by angle at a corner.
+  const auto excess = [&](std::uint32_t v, std::uint32_t surface) {
+    int count = 0;
+    double angle = 0;
+    mesh.visit_star(v, [&](std::uint32_t t) {
+      if (mesh.surface_of(t) != surface) return;
+      ++count;
+      if (mesh.kind(v) == VertexKind::surface) return;
+      const Triangle& c = mesh.triangle(t);
+      const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+      const Vec3 a = mesh.point(c[(k + 1) % 3]) - mesh.point(v), b = mesh.point(c[(k + 2) % 3]) - mesh.point(v);
+      angle += std::atan2(length(cross(a, b)), dot(a, b));
+    });
+    return count - (mesh.kind(v) == VertexKind::surface
+                        ? 6
+                        : std::max(1, static_cast<int>(std::lround(angle * (3 / std::numbers::pi)))));
+  };
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.floor = sine_20_deg};
+  for (int sweep = 0; sweep < 4; ++sweep) {
+    std::uint64_t now = 0;
+    const std::uint32_t start = mesh.step_count();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Triangle& c = mesh.triangle(t);
+        const std::uint32_t a = c[k], b = c[(k + 1) % 3], s = mesh.surface_of(t);
+        if (mesh.line_of_edge(a, b) != no_index) continue;
+        std::uint32_t other = no_index;
+        mesh.visit_star(a, [&](std::uint32_t u) {
+          if (u != t)
+            for (const std::uint32_t w : mesh.triangle(u))
+              if (w == b) other = u;
+        });
+        if (other == no_index || (other < t && mesh.changed_at(other) >= since)) continue;
+        std::uint32_t d = no_index;
+        for (const std::uint32_t w : mesh.triangle(other))
+          if (w != a && w != b) d = w;
+        const int ea = excess(a, s), eb = excess(b, s), ec = excess(c[(k + 2) % 3], s), ed = excess(d, s);
+        if (2 * (ec + ed - ea - eb) + 4 >= 0) continue;
+        if (mesh.flip_edge(a, b, demand) == Verdict::done) {
+          ++now;
+          break;
+        }
+      }
+    }
+    done += now;
+    since = start + 1;
+    if (now == 0) break;
+  }
+  return done;
+}
+
+std::uint64_t even_out(GuardedMesh& mesh, std::uint32_t since) {
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.floor = sine_30_deg};
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive_vertex(v) || mesh.is_fixed(v) || mesh.star_changed_at(v) < since) continue;
+    if (mesh.kind(v) == VertexKind::surface) {
+      const Vec3 p = mesh.point(v), step = equilateral_place(mesh, v) - p;
+      if (dot(step, step) < 1e-4 * mesh.size_m(v) * mesh.size_m(v)) continue;
+      done += with_shorter_steps([&](double share) { return mesh.move_vertex(v, p + share * step, demand); });
+    } else {
+      const auto [from, here, to] = mesh.arcs_around(v);
+      const double middle = 0.5 * (from + to), shapely = mesh.nearest_arc(v, equilateral_place(mesh, v));
+      const double step = middle + shape_share * (shapely - middle) - here, start = here;
+      if (std::abs(step) < 1e-2 * mesh.size_m(v)) continue;
+      done += with_shorter_steps([&](double share) { return mesh.slide_vertex(v, start + share * step, demand); });
+    }
+  }
+  return done;
+}
+
+std::uint64_t shake(GuardedMesh& mesh, double share) {
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.floor = sine_20_deg};
+  for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
+    if (!mesh.is_alive_vertex(v) || mesh.kind(v) != VertexKind::surface) continue;
+    RandomStream random(mix64(v));
+    Vec3 step;
+    for (int axis = 0; axis < 3; ++axis) step[axis] = share * mesh.size_m(v) * (2 * random.unit() - 1);
+    done += mesh.move_vertex(v, mesh.point(v) + step, demand) == Verdict::done;
+  }
+  return done;
+}
+
+std::uint64_t mend_bad_triangles(GuardedMesh& mesh, std::uint32_t since) {
+  struct Bad {
+    double quality = 0;
+    std::uint32_t triangle = 0;
+    Triangle corners{};
+  };
+  std::vector<Bad> bad;
+  const auto has_changed = [&](std::uint32_t t) {
+    for (const std::uint32_t v : mesh.triangle(t))
+      if (mesh.star_changed_at(v) >= since) return true;
+    return false;
+  };
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
+    if (mesh.is_alive(t))
+      if (const double q = mesh.quality(t); q < sine_30_deg && has_changed(t)) bad.push_back({q, t, mesh.triangle(t)});
+  std::sort(bad.begin(), bad.end(), [](const Bad& x, const Bad& y) {
+    return x.quality != y.quality ? x.quality < y.quality : x.triangle < y.triangle;
+  });
+  const ShapeDemand better{.must_improve = true, .longest = 1.8};
+  const auto mend = [&](const Bad& b) {
+    std::array<std::uint32_t, 3> by_length{0, 1, 2};  // edge k runs from corner k
+    const auto edge_length = [&](std::uint32_t k) {
+      return length(mesh.point(b.corners[(k + 1) % 3]) - mesh.point(b.corners[k]));
+    };
+    std::stable_sort(by_length.begin(), by_length.end(),
+                     [&](std::uint32_t i, std::uint32_t j) { return edge_length(i) < edge_length(j); });
+    for (std::size_t i = 3; i-- > 0;)
+      if (mesh.flip_edge(b.corners[by_length[i]], b.corners[(by_length[i] + 1) % 3], better) == Verdict::done)
+        return true;
+    for (const std::uint32_t k : by_length) {
+      const std::uint32_t u = b.corners[k], v = b.corners[(k + 1) % 3];
+      if (mesh.collapse_edge(u, v, better) == Verdict::done || mesh.collapse_edge(v, u, better) == Verdict::done)
+        return true;
+    }
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = b.corners[k];
+      if (mesh.is_fixed(v)) continue;
+      const Vec3 p = mesh.point(v);
+      if (mesh.kind(v) == VertexKind::surface) {
+        // To where the triangle would be equilateral, and to the middle of its neighbours.
+        const Vec3 &x = mesh.point(b.corners[(k + 1) % 3]), &y = mesh.point(b.corners[(k + 2) % 3]);
+        const Vec3 along = y - x, middle = 0.5 * (x + y);
+        const double square = dot(along, along);
+        Vec3 up = p - middle - (dot(p - middle, along) / square) * along;
+        if (const double height = length(up); height > 0) up = (0.8660254037844386 * std::sqrt(square) / height) * up;
+        for (const Vec3& target : {star_centroid(mesh, v), middle + up})
+          for (const double share : {1.0, 0.5, 0.25, 0.1})
+            if (mesh.move_vertex(v, p + share * (target - p), better) == Verdict::done) return true;
+      } else {
+        const auto [from, here, to] = mesh.arcs_around(v);
+        const double start = here, back = from, on = to;
+        for (const double share : {0.5, 0.25, 0.1})
+          if (mesh.slide_vertex(v, start + share * (on - start), better) == Verdict::done ||
+              mesh.slide_vertex(v, start + share * (back - start), better) == Verdict::done)
+            return true;
+      }
+    }
+    return mesh.split_edge(b.corners[by_length[2]], b.corners[(by_length[2] + 1) % 3], better) == Verdict::done;
+  };
+  std::uint64_t done = 0;
+  for (const Bad& b : bad)
+    if (mesh.is_alive(b.triangle) && mesh.triangle(b.triangle) == b.corners && mesh.quality(b.triangle) == b.quality)
+      done += mend(b);
+  return done;
+}
+
+std::uint64_t move_towards(GuardedMesh& mesh, const std::vector<Vec3>& targets, int rounds) {
+  std::uint64_t done = 0;
+  const ShapeDemand demand{.floor = sine_20_deg};
+  for (int round = 0; round < rounds; ++round) {
+    std::uint64_t now = 0;
+    for (std::uint32_t v = 0; v < targets.size(); ++v) {
+      if (!mesh.is_alive_vertex(v) || mesh.is_fixed(v)) continue;
+      const Vec3 p = mesh.point(v), step = targets[v] - p;
+      if (dot(step, step) < 1e-8 * mesh.size_m(v) * mesh.size_m(v)) continue;
+      now += with_shorter_steps([&](double share) {
+        return mesh.kind(v) == VertexKind::surface
+                   ? mesh.move_vertex(v, p + share * step, demand)
+                   : mesh.slide_vertex(v, mesh.nearest_arc(v, p + share * step), demand);
+      });
+    }
+    done += now;
+    if (now == 0 || round + 1 == rounds) break;
+    done += flip_edges(mesh, 0);
+  }
+  return done;
+}
+
+}  // namespace strataflow

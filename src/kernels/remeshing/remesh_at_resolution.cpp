@@ -1,0 +1,189 @@
+#include "kernels/remeshing/remesh_at_resolution.h"
+
+#include <algorithm>
+#include <string>
+
+#include "base/id.h"
+#include "graph/parallel/parallel_map.h"
+#include "kernels/intersection/find_intersections.h"
+#include "kernels/quality/nearest_triangle.h"
+#include "kernels/remeshing/dual/ball_property.h"
+#include "kernels/remeshing/dual/cell_components.h"
+#include "kernels/remeshing/dual/clean_up_dual.h"
+#include "kernels/remeshing/dual/dual_polygons.h"
+#include "kernels/remeshing/dual/dual_soup.h"
+#include "kernels/remeshing/dual/element_changes.h"
+#include "kernels/remeshing/guarded/remesh_guarded.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "kernels/topology/sorted_unique.h"
+#include "kernels/topology/validity/check_validity.h"
+#include "kernels/voronoi/line_edges.h"
+#include "kernels/voronoi/restricted_diagram.h"
+
+namespace strataflow {
+
+namespace {
+
+/// One dual of the sites, judged.
+struct Attempt {
+  DualSoup dual;
+  BuiltModel built;
+  std::vector<BallFailure> ball_failures;
+  std::uint64_t merged_points = 0, cleaned_up = 0;
+  std::vector<std::uint32_t> bad_sites;  ///< whose cells the flaws are in; ascending
+  std::string flaw;                      ///< empty: valid
+  std::vector<std::uint32_t> far_sites;  ///< where a valid dual lies too far from the input; ascending
+};
+
+/// The names of regions, as a file would list them, for the model that is built of the dual.
+std::vector<RegionRecord> region_records(const StructuralModel& model) {
+  std::vector<RegionRecord> records(model.regions.size());
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = model.regions[i].name;
+  for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
+    const Surface& surface = model.surfaces[s];
+    if (surface.region_plus != universe) records[surface.region_plus].sides.push_back({s, 1, {}});
+    if (surface.region_minus != universe) records[surface.region_minus].sides.push_back({s, 0, {}});
+  }
+  return records;
+}
+
+Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& diagram, std::size_t site_count,
+                        const MergeOptions& merge) {
+  const Result<CellComponents> components = find_cell_components(model, diagram, site_count);
+  if (!components) return components.failure();
+  Attempt made;
+  const ComponentPoints points = place_component_points(model, diagram, *components, merge);
+  DualMesh mesh = build_dual_polygons(model, diagram, *components, points);
+  made.cleaned_up = clean_up_dual(model, mesh).done.size();
+  made.merged_points = points.merges.size();
+  made.ball_failures = check_ball_property(model, diagram, *components);
+  made.dual = make_dual_soup(model, mesh);
+  made.dual.soup.local_origin = model.local_origin;
+  made.dual.soup.regions = region_records(model);
+
+  const TriangleSoup& soup = made.dual.soup;
+  for (const auto& pair : find_intersections(soup.points, soup.triangles)) {
+    if (made.flaw.empty()) made.flaw = "triangles of the dual cross each other";
+    for (const std::uint32_t t : {pair.first, pair.second})
+      for (const std::uint32_t point : soup.triangles[t]) made.bad_sites.push_back(made.dual.points[point].site);
+  }
+  Result<BuiltModel> built = build_structural_model(soup);
+  if (!built) return built.failure();
+  made.built = std::move(*built);
+  if (made.flaw.empty()) {
+    const ValidityReport validity = check_validity(made.built);
+    if (!is_sealed(made.built.model, validity)) {
+      made.flaw = "the dual is not sealed";
+      for (const Violation& violation : validity.violations)
+        if (violation.severity == Violation::Severity::error) made.flaw = violation.what;
+    }
+  }
+  if (!made.flaw.empty() && made.bad_sites.empty())  // nothing crosses, yet something leaks: where cells see too much
+    for (const BallFailure& failure : made.ball_failures)
+      if (failure.check != BallCheck::several_sheets && failure.check != BallCheck::several_arcs)
+        made.bad_sites.push_back(failure.site);
+  made.bad_sites = sorted_unique(std::move(made.bad_sites));
+  return made;
+}
+
+/// Sites in whose cells input and dual lie farther apart than `wanted_m`, looking from the corners of pieces and from the
+/// middle of the dual's triangles.
+std::vector<std::uint32_t> far_sites(const StructuralModel& model, const RestrictedDiagram& diagram,
+                                     const DualSoup& dual, double wanted_m) {
+  const double wanted = wanted_m * wanted_m;
+  const NearestTriangle to_dual({dual.soup.points, dual.soup.triangles});
+  const NearestTriangle to_model({model.points, model.triangles});
+  const auto far_pieces = parallel_map(diagram.piece_count(), [&](std::size_t i) {
+    for (const Vec3& corner : diagram.piece_points(i))
+      if (to_dual.nearest(corner).squared_m2 > wanted) return diagram.piece_site[i];
+    return no_index;
+  }, 256);
+  const auto far_triangles = parallel_map(dual.soup.triangles.size(), [&](std::size_t t) {
+    const auto& [a, b, c] = dual.soup.triangles[t];
+    const Vec3 middle = (1.0 / 3) * (dual.soup.points[a] + dual.soup.points[b] + dual.soup.points[c]);
+    return to_model.nearest(middle).squared_m2 > wanted ? dual.points[a].site : no_index;
+  }, 256);
+  std::vector<std::uint32_t> sites;
+  for (const auto* found : {&far_pieces, &far_triangles})
+    for (const std::uint32_t site : *found)
+      if (site != no_index) sites.push_back(site);
+  return sorted_unique(std::move(sites));
+}
+
+/// One more site in each bad cell, at the corner of its pieces farthest from the site.
+std::vector<Vec3> with_more_sites(const RestrictedDiagram& diagram, const std::vector<std::uint32_t>& bad_sites,
+                                  std::vector<Vec3> sites) {
+  std::vector<double> farthest(bad_sites.size(), 0);
+  std::vector<Vec3> place(bad_sites.size());
+  for (std::size_t i = 0; i < diagram.piece_count(); ++i) {
+    const auto found = std::lower_bound(bad_sites.begin(), bad_sites.end(), diagram.piece_site[i]);
+    if (found == bad_sites.end() || *found != diagram.piece_site[i]) continue;
+    const auto k = static_cast<std::size_t>(found - bad_sites.begin());
+    for (const Vec3& corner : diagram.piece_points(i))
+      if (const double d = length(corner - sites[*found]); d > farthest[k]) {
+        farthest[k] = d;
+        place[k] = corner;
+      }
+  }
+  for (std::size_t k = 0; k < bad_sites.size(); ++k)
+    if (farthest[k] > 0) sites.push_back(place[k]);
+  return sites;
+}
+
+}  // namespace
+
+Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, std::vector<Vec3> sites,
+                                                  const RemeshAtResolutionOptions& options) {
+  if (sites.empty()) return Failure{FailureCode::invalid_input, "there are no sites", "ask for more sites"};
+  const std::vector<LineEdge> lines = line_edges(model);
+  const CvtDomain domain{model.points, model.triangles, {}, lines};
+  const std::size_t asked = sites.size();
+  Attempt best;
+  for (std::int64_t round = 0;; ++round) {
+    SiteNeighbours neighbours;
+    neighbours.move_to(sites);
+    const RestrictedDiagram diagram = restrict_to_triangles(model.points, model.triangles, neighbours);
+    Result<Attempt> made = attempt(model, diagram, sites.size(), options.merge);
+    if (!made) return made.failure();
+    best = std::move(*made);
+    std::vector<std::uint32_t> poor = best.bad_sites;
+    if (best.flaw.empty() && options.wanted_distance_m > 0)
+      poor = best.far_sites = far_sites(model, diagram, best.dual, options.wanted_distance_m);
+    if (best.flaw.empty() && (poor.empty() || round == options.rounds)) break;
+    if (options.is_cancelled && options.is_cancelled())
+      return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
+    const std::vector<Vec3> more = with_more_sites(diagram, poor, sites);
+    if (round == options.rounds || more.size() == sites.size())
+      return Failure{FailureCode::geometry_failed,
+                     "after " + std::to_string(round) + " rounds of adding sites the dual is still not valid: " + best.flaw,
+                     "ask for more sites, another d_resolution_m, or preserve = \"all\""};
+    sites = optimise_sites(domain, more, {}, options.reoptimise).sites;
+  }
+
+  RemeshedAtResolution result;
+  result.added_sites = sites.size() - asked;
+  result.merged_points = best.merged_points;
+  result.cleaned_up = best.cleaned_up;
+  result.ball_failures = best.ball_failures.size();
+  for (const ElementChange& change : compare_elements(model, best.dual, best.built.model))
+    result.changes.push_back({std::string(to_string(change.element)) + "_" + std::string(to_string(change.kind)),
+                              describe(change, model, best.built.model), "smaller than a cell, or nearer than d_resolution_m"});
+  if (!best.far_sites.empty())
+    result.changes.push_back({"far_from_input", std::to_string(best.far_sites.size()) + " cells",
+                              "the rounds of adding sites did not bring the mesh nearer"});
+  RemeshGuardedOptions guarded;
+  guarded.target_edge_length_m = options.edge_length_m;
+  guarded.distance_ratio = options.distance_ratio;
+  Result<RemeshGuardedResult> evened = remesh_guarded(best.built.model, guarded);
+  if (!evened) return evened.failure();
+  result.soup = std::move(evened->soup);
+  result.soup.local_origin = model.local_origin;
+  result.soup.regions = region_records(best.built.model);
+  result.splits = evened->report.splits;
+  result.collapses = evened->report.collapses;
+  result.flips = evened->report.flips;
+  result.moves = evened->report.moves;
+  return result;
+}
+
+}  // namespace strataflow

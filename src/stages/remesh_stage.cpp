@@ -1,0 +1,129 @@
+#include "stages/remesh_stage.h"
+
+#include "kernels/remeshing/guarded/remesh_guarded.h"
+#include "kernels/remeshing/remesh_at_resolution.h"
+#include "kernels/topology/building/build_structural_model.h"
+#include "stages/check_validity_stage.h"
+
+namespace strataflow {
+
+namespace {
+
+/// The names of regions, as a file would list them, for the model that is built of the remeshed surfaces.
+std::vector<RegionRecord> region_records(const StructuralModel& model) {
+  std::vector<RegionRecord> records(model.regions.size());
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = model.regions[i].name;
+  for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
+    const Surface& surface = model.surfaces[s];
+    if (surface.region_plus != universe) records[surface.region_plus].sides.push_back({s, 1});
+    if (surface.region_minus != universe) records[surface.region_minus].sides.push_back({s, 0});
+  }
+  return records;
+}
+
+std::string counted(std::size_t before, std::size_t after, const char* what) {
+  return std::to_string(before) + " " + what + " became " + std::to_string(after);
+}
+
+}  // namespace
+
+Result<RemeshedSurfaces> Remesh::operator()(const BuiltModel& built, const ValidityReport& validity,
+                                            StageContext& context) const {
+  if (std::optional<Failure> failure = why_not_sealed(built.model, validity)) return *failure;
+  const Result<SitePlan> plan = plan_sites(built.model, options.sites);
+  if (!plan) return plan.failure();
+  RemeshGuardedOptions guarded;
+  guarded.target_edge_length_m = plan->edge_length_m;
+  guarded.surface_edge_length_m = plan->surface_edge_length_m;
+  guarded.distance_ratio = options.hausdorff_ratio;
+  Result<RemeshGuardedResult> result = remesh_guarded(built.model, guarded);
+  if (!result) return result.failure();
+  if (context.is_cancelled()) return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
+
+  RemeshedSurfaces remeshed;
+  remeshed.soup = std::move(result->soup);
+  remeshed.soup.local_origin = built.model.local_origin;
+  remeshed.soup.regions = region_records(built.model);
+  remeshed.edge_length_m = plan->edge_length_m;
+  remeshed.sites_asked = plan->sites;
+  remeshed.splits = result->report.splits;
+  remeshed.collapses = result->report.collapses;
+  remeshed.flips = result->report.flips;
+  remeshed.moves = result->report.moves;
+  for (const BadTriangle& bad : result->report.bad_triangles)
+    remeshed.kept.push_back({bad.triangle, bad.smallest_angle_deg,
+                             static_cast<std::uint8_t>(bad.reason == BadTriangleReason::touches_small_feature), {}});
+  return remeshed;
+}
+
+Result<RemeshedSurfaces> RemeshAtResolution::operator()(const BuiltModel& built, const ValidityReport& validity,
+                                                        const SiteSet& sites, StageContext& context) const {
+  if (std::optional<Failure> failure = why_not_sealed(built.model, validity)) return *failure;
+  RemeshAtResolutionOptions asked;
+  asked.merge.resolution_m = options.d_resolution_m.value_or(0);
+  // Only what lies nearer than d_resolution_m: merging all that one cell sees moves borders by half a cell.
+  asked.merge.merges_linked_corners = asked.merge.merges_beyond_two_points = false;
+  asked.edge_length_m = sites.edge_length_m;
+  asked.distance_ratio = 0.5 * options.hausdorff_ratio;
+  asked.wanted_distance_m =
+      std::max(options.hausdorff_ratio * built.model.box.diagonal_m(), options.d_resolution_m.value_or(0));
+  // Few steps: more would spread again what was put where it is needed.
+  asked.reoptimise.lloyd_iterations = 2;
+  asked.reoptimise.iterations = std::min<std::size_t>(6, static_cast<std::size_t>(options.sites.iterations));
+  asked.reoptimise.line_attraction = sites.line_attraction;
+  asked.is_cancelled = [&] { return context.is_cancelled(); };
+  asked.reoptimise.is_cancelled = asked.is_cancelled;
+  Result<RemeshedAtResolution> result = remesh_at_resolution(built.model, sites.sites, asked);
+  if (!result) return result.failure();
+  RemeshedSurfaces remeshed;
+  remeshed.soup = std::move(result->soup);
+  remeshed.edge_length_m = sites.edge_length_m;
+  remeshed.sites_asked = sites.sites.size() - sites.sites_on_box;
+  remeshed.added_sites = result->added_sites;
+  remeshed.merged_points = result->merged_points;
+  remeshed.ball_failures = result->ball_failures;
+  remeshed.splits = result->splits;
+  remeshed.collapses = result->collapses;
+  remeshed.flips = result->flips;
+  remeshed.moves = result->moves;
+  remeshed.changes = std::move(result->changes);
+  return remeshed;
+}
+
+Result<BuiltModel> BuildSurfaces::operator()(const RemeshedSurfaces& remeshed, StageContext&) const {
+  return build_structural_model(remeshed.soup);
+}
+
+Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, const BuiltModel& after,
+                                                   StageContext&) const {
+  SurfacesReport report;
+  report.before = analyze_surface_mesh(before.model);
+  report.after = analyze_surface_mesh(after.model);
+  report.topology_before = topology_of(before.model);
+  report.topology_after = topology_of(after.model);
+  Result<HausdorffDistance> distance = hausdorff_distance({before.model.points, before.model.triangles},
+                                                          {after.model.points, after.model.triangles},
+                                                          {.error_ratio = 3e-4});
+  if (!distance) return distance.failure();
+  report.hausdorff = *distance;
+  Result<std::vector<EntityDistance>> by_entity = hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3});
+  if (!by_entity) return by_entity.failure();
+  report.by_entity = std::move(*by_entity);
+  if (!options.must_preserve_all) return report;  // what changed, and why, is told by who changed it
+  report.changes = contact_changes(report.before, report.after);
+  const auto count = [&](std::size_t was, std::size_t is, const char* what) {
+    if (was != is)
+      report.changes.push_back({std::string(what) + "_changed", counted(was, is, what), "below the resolution"});
+  };
+  count(report.before.corners, report.after.corners, "corners");
+  count(report.before.lines, report.after.lines, "lines");
+  count(report.before.surfaces, report.after.surfaces, "surfaces");
+  count(report.before.regions, report.after.regions, "regions");
+  if (!report.changes.empty())
+    return Failure{FailureCode::geometry_failed,
+                   "remeshing changed what it was to preserve: " + report.changes.front().what,
+                   "this is a defect of the remesher: please report the model; preserve = \"resolution\" allows it"};
+  return report;
+}
+
+}  // namespace strataflow
