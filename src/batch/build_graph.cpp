@@ -81,15 +81,14 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   wired.model = model;
   const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
   wired.validity = validity;
-  const bool merges = remeshes && job.remesh.preserve == "resolution";
-  if (job.makes("voronoi") || merges) {
+  const bool takes_cells = remeshes && job.remesh.uses_cells();
+  if (job.makes("voronoi") || takes_cells)
     wired.sites = wirer.add("optimise_sites", OptimiseSites{job.remesh.sites}, model);
-    wired.diagram = wirer.add("restricted_voronoi", RestrictVoronoi{}, model, *wired.sites);
-  }
+  if (job.makes("voronoi")) wired.diagram = wirer.add("restricted_voronoi", RestrictVoronoi{}, model, *wired.sites);
   if (remeshes) {
-    wired.remeshed =
-        merges ? wirer.add("remesh_at_resolution", RemeshAtResolution{job.remesh}, model, validity, *wired.sites)
-               : wirer.add("remesh", Remesh{job.remesh}, model, validity);
+    wired.remeshed = takes_cells
+                         ? wirer.add("remesh_by_cells", RemeshByCells{job.remesh}, model, validity, *wired.sites)
+                         : wirer.add("remesh", Remesh{job.remesh}, model, validity);
     wired.surfaces = wirer.add("build_surfaces", BuildSurfaces{}, *wired.remeshed);
     wired.surfaces_validity = wirer.add("check_surfaces", CheckValidity{{true}}, *wired.surfaces);
     wired.surfaces_report =

@@ -21,8 +21,48 @@ std::vector<RegionRecord> region_records(const StructuralModel& model) {
   return records;
 }
 
+std::vector<KeptTriangle> kept_of(const std::vector<BadTriangle>& triangles) {
+  std::vector<KeptTriangle> kept;
+  for (const BadTriangle& bad : triangles)
+    kept.push_back({bad.triangle, bad.smallest_angle_deg,
+                    static_cast<std::uint8_t>(bad.reason == BadTriangleReason::touches_small_feature), {}});
+  return kept;
+}
+
 std::string counted(std::size_t before, std::size_t after, const char* what) {
   return std::to_string(before) + " " + what + " became " + std::to_string(after);
+}
+
+}  // namespace
+
+namespace {
+
+RemeshedSurfaces surfaces_of(RemeshedAtResolution result) {
+  RemeshedSurfaces remeshed;
+  remeshed.soup = std::move(result.soup);
+  remeshed.added_sites = result.added_sites;
+  remeshed.merged_points = result.merged_points;
+  remeshed.ball_failures = result.ball_failures;
+  remeshed.splits = result.splits;
+  remeshed.collapses = result.collapses;
+  remeshed.flips = result.flips;
+  remeshed.moves = result.moves;
+  remeshed.kept = kept_of(result.bad_triangles);
+  remeshed.changes = std::move(result.changes);
+  return remeshed;
+}
+
+RemeshedSurfaces surfaces_of(RemeshGuardedResult result, const StructuralModel& model) {
+  RemeshedSurfaces remeshed;
+  remeshed.soup = std::move(result.soup);
+  remeshed.soup.local_origin = model.local_origin;
+  remeshed.soup.regions = region_records(model);
+  remeshed.splits = result.report.splits;
+  remeshed.collapses = result.report.collapses;
+  remeshed.flips = result.report.flips;
+  remeshed.moves = result.report.moves;
+  remeshed.kept = kept_of(result.report.bad_triangles);
+  return remeshed;
 }
 
 }  // namespace
@@ -39,54 +79,39 @@ Result<RemeshedSurfaces> Remesh::operator()(const BuiltModel& built, const Valid
   Result<RemeshGuardedResult> result = remesh_guarded(built.model, guarded);
   if (!result) return result.failure();
   if (context.is_cancelled()) return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
-
-  RemeshedSurfaces remeshed;
-  remeshed.soup = std::move(result->soup);
-  remeshed.soup.local_origin = built.model.local_origin;
-  remeshed.soup.regions = region_records(built.model);
+  RemeshedSurfaces remeshed = surfaces_of(std::move(*result), built.model);
   remeshed.edge_length_m = plan->edge_length_m;
   remeshed.sites_asked = plan->sites;
-  remeshed.splits = result->report.splits;
-  remeshed.collapses = result->report.collapses;
-  remeshed.flips = result->report.flips;
-  remeshed.moves = result->report.moves;
-  for (const BadTriangle& bad : result->report.bad_triangles)
-    remeshed.kept.push_back({bad.triangle, bad.smallest_angle_deg,
-                             static_cast<std::uint8_t>(bad.reason == BadTriangleReason::touches_small_feature), {}});
   return remeshed;
 }
 
-Result<RemeshedSurfaces> RemeshAtResolution::operator()(const BuiltModel& built, const ValidityReport& validity,
-                                                        const SiteSet& sites, StageContext& context) const {
+Result<RemeshedSurfaces> RemeshByCells::operator()(const BuiltModel& built, const ValidityReport& validity,
+                                                   const SiteSet& sites, StageContext& context) const {
   if (std::optional<Failure> failure = why_not_sealed(built.model, validity)) return *failure;
-  RemeshAtResolutionOptions asked;
-  asked.merge.resolution_m = options.d_resolution_m.value_or(0);
-  // Only what lies nearer than d_resolution_m: merging all that one cell sees moves borders by half a cell.
-  asked.merge.merges_linked_corners = asked.merge.merges_beyond_two_points = false;
-  asked.edge_length_m = sites.edge_length_m;
-  asked.distance_ratio = 0.5 * options.hausdorff_ratio;
-  asked.wanted_distance_m =
+  RemeshAtResolutionOptions dual;
+  // Only what lies nearer than d_resolution_m is merged: merging all that one cell sees moves borders by half a cell.
+  dual.merge.merges_linked_corners = dual.merge.merges_beyond_two_points = false;
+  dual.merge.resolution_m = options.d_resolution_m.value_or(0);
+  dual.must_keep_all = options.preserve == "all";
+  dual.edge_length_m = sites.edge_length_m;
+  dual.distance_ratio = 0.5 * options.hausdorff_ratio;
+  dual.wanted_distance_m =
       std::max(options.hausdorff_ratio * built.model.box.diagonal_m(), options.d_resolution_m.value_or(0));
   // Few steps: more would spread again what was put where it is needed.
-  asked.reoptimise.lloyd_iterations = 2;
-  asked.reoptimise.iterations = std::min<std::size_t>(6, static_cast<std::size_t>(options.sites.iterations));
-  asked.reoptimise.line_attraction = sites.line_attraction;
-  asked.is_cancelled = [&] { return context.is_cancelled(); };
-  asked.reoptimise.is_cancelled = asked.is_cancelled;
-  Result<RemeshedAtResolution> result = remesh_at_resolution(built.model, sites.sites, asked);
+  dual.reoptimise.lloyd_iterations = 2;
+  dual.reoptimise.iterations = std::min<std::size_t>(6, static_cast<std::size_t>(options.sites.iterations));
+  dual.reoptimise.line_attraction = sites.line_attraction;
+  dual.is_cancelled = dual.reoptimise.is_cancelled = [&] { return context.is_cancelled(); };
+  Result<RemeshedAtResolution> result = remesh_at_resolution(built.model, sites.sites, dual);
+  if (!result && dual.must_keep_all && result.failure().code == FailureCode::geometry_failed) {
+    // Steps that start from the input's triangles cannot fail: what they cannot improve stays.
+    context.warn("kept_triangulation", result.failure().what + "; remeshed by steps from the input's triangles instead");
+    return Remesh{options}(built, validity, context);
+  }
   if (!result) return result.failure();
-  RemeshedSurfaces remeshed;
-  remeshed.soup = std::move(result->soup);
+  RemeshedSurfaces remeshed = surfaces_of(std::move(*result));
   remeshed.edge_length_m = sites.edge_length_m;
   remeshed.sites_asked = sites.sites.size() - sites.sites_on_box;
-  remeshed.added_sites = result->added_sites;
-  remeshed.merged_points = result->merged_points;
-  remeshed.ball_failures = result->ball_failures;
-  remeshed.splits = result->splits;
-  remeshed.collapses = result->collapses;
-  remeshed.flips = result->flips;
-  remeshed.moves = result->moves;
-  remeshed.changes = std::move(result->changes);
   return remeshed;
 }
 

@@ -43,8 +43,10 @@ struct RemeshedSurfaces {
 struct RemeshStageOptions {
   SiteOptions sites;
   std::string preserve = "all";
+  std::string method = "auto";
   std::optional<double> d_resolution_m;
-  double hausdorff_ratio = 0.002;
+  double hausdorff_ratio = 0.0015;
+  bool uses_cells() const { return method == "cells" || preserve == "resolution"; }
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     sites.visit_fields(visit);
@@ -52,6 +54,10 @@ struct RemeshStageOptions {
                                 .description = "What the mesh keeps: all corners, lines, surfaces and regions, or what "
                                                "the resolution leaves of them, every change told",
                                 .words = {"all", "resolution"}});
+    visit(method, OptionField{.name = "method",
+                              .description = "How: by steps from the input's triangles, or as the dual of Voronoi cells; "
+                                             "auto: steps if all is to be kept, cells otherwise",
+                              .words = {"auto", "steps", "cells"}});
     visit(d_resolution_m, OptionField{.name = "d_resolution_m",
                                       .description = "With preserve = resolution: what lies nearer together is merged",
                                       .minimum = 0,
@@ -64,7 +70,8 @@ struct RemeshStageOptions {
   }
 };
 
-/// Remeshes all surfaces of a sealed model at a chosen resolution (pellerin2014 chapter 4).
+/// Remeshes all surfaces of a sealed model at a chosen resolution by steps from the input's triangles, each of which
+/// keeps all and leaves the mesh valid.
 struct Remesh {
   static constexpr std::string_view name = "remesh";
   static constexpr int version = 1;
@@ -74,9 +81,10 @@ struct Remesh {
                                       StageContext& context) const;
 };
 
-/// The same with what lies below the resolution merged: the dual of the cells of sites (pellerin2014 chapter 4).
-struct RemeshAtResolution {
-  static constexpr std::string_view name = "remesh_at_resolution";
+/// The same as the dual of the cells of sites (pellerin2014 chapter 4), which are added until the dual is valid, near the
+/// input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
+struct RemeshByCells {
+  static constexpr std::string_view name = "remesh_by_cells";
   static constexpr int version = 1;
   RemeshStageOptions options;
 

@@ -22,6 +22,11 @@ Sample sample_of(std::string_view name) {
   return sample;
 }
 
+SiteSet sites_of(const Sample& sample, const SiteOptions& options) {
+  StageContext context("optimise_sites", 1);
+  return *OptimiseSites{options}(sample.built, context);
+}
+
 TEST(PlanSites, sites_of_the_box_come_on_top_at_the_same_spacing) {
   const Sample sample = sample_of("A1");
   const SitePlan plan = *plan_sites(sample.built.model, {.sites = 500});
@@ -63,6 +68,19 @@ TEST(Remesh, keeps_everything_and_names_regions_alike) {
   EXPECT_GT(report->after.triangles.mean_quality, 0.85);
 }
 
+TEST(RemeshByCells, that_must_keep_all_falls_back_to_local_steps_where_the_dual_cannot) {
+  const Sample sample = sample_of("A4");
+  StageContext context;
+  RemeshByCells remesh;
+  remesh.options.sites.sites = 20;  // cells far larger than what they are to keep
+  remesh.options.sites.iterations = 5;
+  const SiteSet few = sites_of(sample, remesh.options.sites);
+  const Result<RemeshedSurfaces> remeshed = remesh(sample.built, sample.validity, few, context);
+  ASSERT_TRUE(remeshed) << remeshed.failure().what;
+  const BuiltModel after = *BuildSurfaces{}(*remeshed, context);
+  EXPECT_TRUE(CompareSurfaces{}(sample.built, after, context));
+}
+
 TEST(Remesh, refuses_a_model_that_is_not_sealed) {
   TriangleSoup soup = *generate_reference_model("A1", {.resolution_m = 100});
   soup.triangles.pop_back();
@@ -73,18 +91,19 @@ TEST(Remesh, refuses_a_model_that_is_not_sealed) {
   check.options.must_be_sealed = false;
   const ValidityReport validity = *check(built, context);
   EXPECT_FALSE(Remesh{}(built, validity, context));
+  EXPECT_FALSE(RemeshByCells{}(built, validity, SiteSet{}, context));
 }
 
-TEST(RemeshAtResolution, tells_what_it_changed_and_how_many_sites_it_took) {
+TEST(RemeshByCells, tells_what_it_changed_and_how_many_sites_it_took) {
   const Sample sample = sample_of("A4");
-  StageContext sites_context("optimise_sites", 1), context;
+  StageContext context;
   RemeshStageOptions options;
   options.sites.sites = 600;
   options.sites.iterations = 20;
   options.preserve = "resolution";
   options.d_resolution_m = 20;
-  const SiteSet sites = *OptimiseSites{options.sites}(sample.built, sites_context);
-  const Result<RemeshedSurfaces> remeshed = RemeshAtResolution{options}(sample.built, sample.validity, sites, context);
+  const Result<RemeshedSurfaces> remeshed =
+      RemeshByCells{options}(sample.built, sample.validity, sites_of(sample, options.sites), context);
   ASSERT_TRUE(remeshed) << remeshed.failure().what;
   EXPECT_EQ(remeshed->sites_asked, 600u);
   const BuiltModel after = *BuildSurfaces{}(*remeshed, context);

@@ -111,14 +111,15 @@ void check_remesh(const JobValue& root, const RemeshStageOptions& remesh, bool m
         "density = \"property\" and density_property come together or not at all",
         "name a property of the input's points in density_property, with density = \"property\"");
   if (!makes_surfaces) return;
-  if (remesh.preserve == "resolution") return;
-  if (remesh.d_resolution_m)
+  if (remesh.preserve == "resolution" && remesh.method == "steps")
+    add(problems, origin_of(root, "remesh", "method"), "steps keep all: preserve = \"resolution\" takes cells",
+        "remove method, or write method = \"cells\"");
+  if (sites.density != "uniform" && !remesh.uses_cells())
+    add(problems, origin_of(root, "remesh", "density"), "steps follow edge lengths, not densities",
+        "use entity_edge_length_m, or method = \"cells\"");
+  if (remesh.preserve == "all" && remesh.d_resolution_m)
     add(problems, origin_of(root, "remesh", "d_resolution_m"),
         "d_resolution_m merges what preserve = \"all\" is to keep", "remove one of them");
-  if (sites.density != "uniform")
-    add(problems, origin_of(root, "remesh", "density"),
-        "surfaces that preserve all follow edge lengths, not densities",
-        "use entity_edge_length_m, or preserve = \"resolution\"");
 }
 
 void check_products(const JobValue& root, const Job& job, Problems& problems) {

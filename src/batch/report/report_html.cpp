@@ -103,18 +103,18 @@ std::string cut_section(const CutResult& result) {
          changes_table(result.changes);
 }
 
-std::string voronoi_section(const SiteSet& sites, const RestrictedDiagram& diagram) {
+std::string sites_section(const SiteSet& sites, const RestrictedDiagram* diagram) {
   std::vector<double> energies;
   for (const CvtStep& step : sites.lloyd_steps) energies.push_back(step.energy);
   for (const CvtStep& step : sites.newton_steps) energies.push_back(step.energy);
-  return "<h2>Restricted Voronoi diagram</h2>\n" +
-         html_table({}, {{"sites", count(sites.sites.size())},
-                         {"of these on the box", count(sites.sites_on_box)},
-                         {"edge length, m", readable_number(sites.edge_length_m)},
-                         {"pieces of cells", count(diagram.piece_count())},
-                         {"diagrams computed", count(sites.evaluations)},
-                         {"stopped by", sites.stopped_by}}) +
-         "<div class=\"row\">\n" + svg_curve(energies, "energy of the tessellation, m⁴") + "</div>\n";
+  Rows rows{{"sites", count(sites.sites.size())},
+            {"of these on the box", count(sites.sites_on_box)},
+            {"edge length, m", readable_number(sites.edge_length_m)},
+            {"diagrams computed", count(sites.evaluations)},
+            {"stopped by", sites.stopped_by}};
+  if (diagram) rows.push_back({"pieces of cells", count(diagram->piece_count())});
+  return "<h2>Restricted Voronoi diagram</h2>\n" + html_table({}, rows) + "<div class=\"row\">\n" +
+         svg_curve(energies, "energy of the tessellation, m⁴") + "</div>\n";
 }
 
 std::string surfaces_section(const RemeshedSurfaces& remeshed, const ValidityReport& validity,
@@ -239,7 +239,7 @@ std::string report_html(const JobReport& report) {
   if (report.sealed) body += cut_section(*report.sealed);
   if (report.model && report.validity)
     body += model_section(*report.model, *report.validity) + pictures_html(report.model_pictures);
-  if (report.sites && report.diagram) body += voronoi_section(*report.sites, *report.diagram);
+  if (report.sites) body += sites_section(*report.sites, report.diagram.get());
   if (report.remeshed && report.surfaces_validity && report.surfaces_report)
     body += surfaces_section(*report.remeshed, *report.surfaces_validity, *report.surfaces_report) +
             pictures_html(report.surfaces_pictures);

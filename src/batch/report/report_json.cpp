@@ -151,7 +151,7 @@ Json steps_json(const std::vector<CvtStep>& steps) {
   return list;
 }
 
-Json voronoi_block(const SiteSet& sites, const RestrictedDiagram& diagram) {
+Json sites_json(const SiteSet& sites) {
   return {{"sites", sites.sites.size()},
           {"sites_on_box", sites.sites_on_box},
           {"edge_length_m", sites.edge_length_m},
@@ -159,9 +159,14 @@ Json voronoi_block(const SiteSet& sites, const RestrictedDiagram& diagram) {
           {"evaluations", sites.evaluations},
           {"replanted_sites", sites.replanted},
           {"stopped_by", sites.stopped_by},
-          {"pieces", diagram.piece_count()},
           {"lloyd_steps", steps_json(sites.lloyd_steps)},
           {"newton_steps", steps_json(sites.newton_steps)}};
+}
+
+Json voronoi_block(const SiteSet& sites, const RestrictedDiagram& diagram) {
+  Json json = sites_json(sites);
+  json["pieces"] = diagram.piece_count();
+  return json;
 }
 
 Json distance_json(const HausdorffDistance& distance) {
@@ -206,7 +211,7 @@ Json mesh_json(const SurfaceMeshReport& mesh) {
           {"contacts", contacts_json(mesh.contacts)}};
 }
 
-Json surfaces_block(const RemeshedSurfaces& remeshed, const BuiltModel& built, const ValidityReport& validity,
+Json surfaces_block(const SiteSet* sites, const RemeshedSurfaces& remeshed, const BuiltModel& built, const ValidityReport& validity,
                     const SurfacesReport& report) {
   Json json = mesh_json(report.after);
   json["sites"] = remeshed.sites_asked;
@@ -225,6 +230,7 @@ Json surfaces_block(const RemeshedSurfaces& remeshed, const BuiltModel& built, c
     by_entity.push_back(std::move(one));
   }
   json["hausdorff_by_entity"] = std::move(by_entity);
+  if (sites) json["optimisation"] = sites_json(*sites);
   json["topology"] = {{"before", topology_json(report.topology_before.whole)},
                       {"after", topology_json(report.topology_after.whole)}};
   json["before"] = mesh_json(report.before);
@@ -389,7 +395,7 @@ std::string report_json(const JobReport& report) {
   if (report.sites && report.diagram) json["voronoi"] = voronoi_block(*report.sites, *report.diagram);
   if (report.remeshed && report.surfaces && report.surfaces_validity && report.surfaces_report)
     json["surfaces"] =
-        surfaces_block(*report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
+        surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
   if (report.complexity) json["complexity"] = complexity_block(*report.complexity);
   if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
   return written(json);

@@ -13,7 +13,6 @@
 #include "kernels/remeshing/dual/dual_polygons.h"
 #include "kernels/remeshing/dual/dual_soup.h"
 #include "kernels/remeshing/dual/element_changes.h"
-#include "kernels/remeshing/guarded/remesh_guarded.h"
 #include "kernels/topology/building/build_structural_model.h"
 #include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/validity/check_validity.h"
@@ -31,6 +30,7 @@ struct Attempt {
   std::vector<BallFailure> ball_failures;
   std::uint64_t merged_points = 0, cleaned_up = 0;
   std::vector<std::uint32_t> bad_sites;  ///< whose cells the flaws are in; ascending
+  std::vector<ElementChange> changes;
   std::string flaw;                      ///< empty: valid
   std::vector<std::uint32_t> far_sites;  ///< where a valid dual lies too far from the input; ascending
 };
@@ -47,12 +47,30 @@ std::vector<RegionRecord> region_records(const StructuralModel& model) {
   return records;
 }
 
+/// The sites in whose cells changed elements lie.
+std::vector<std::uint32_t> sites_of_changes(const std::vector<ElementChange>& changes, const CellComponents& components,
+                                            const std::vector<BallFailure>& failures) {
+  std::vector<std::uint32_t> sites;
+  for (const ElementChange& change : changes)
+    for (const std::uint32_t element : change.before) {
+      if (change.element == ElementKind::corner)
+        sites.push_back(components.lines[components.corner_component[element]].site);
+      if (change.element == ElementKind::line)
+        for (std::uint32_t part = components.line_begin[element]; part < components.line_begin[element + 1]; ++part)
+          sites.push_back(components.parts[part].site);
+      if (change.element == ElementKind::surface)
+        for (const BallFailure& failure : failures)
+          if (failure.surface == element && failure.check != BallCheck::several_sheets) sites.push_back(failure.site);
+    }
+  return sites;
+}
+
 Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& diagram, std::size_t site_count,
-                        const MergeOptions& merge) {
+                        const RemeshAtResolutionOptions& options) {
   const Result<CellComponents> components = find_cell_components(model, diagram, site_count);
   if (!components) return components.failure();
   Attempt made;
-  const ComponentPoints points = place_component_points(model, diagram, *components, merge);
+  const ComponentPoints points = place_component_points(model, diagram, *components, options.merge);
   DualMesh mesh = build_dual_polygons(model, diagram, *components, points);
   made.cleaned_up = clean_up_dual(model, mesh).done.size();
   made.merged_points = points.merges.size();
@@ -77,6 +95,11 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
       for (const Violation& violation : validity.violations)
         if (violation.severity == Violation::Severity::error) made.flaw = violation.what;
     }
+  }
+  made.changes = compare_elements(model, made.dual, made.built.model);
+  if (made.flaw.empty() && options.must_keep_all && !made.changes.empty()) {
+    made.flaw = describe(made.changes.front(), model, made.built.model);
+    made.bad_sites = sites_of_changes(made.changes, *components, made.ball_failures);
   }
   if (!made.flaw.empty() && made.bad_sites.empty())  // nothing crosses, yet something leaks: where cells see too much
     for (const BallFailure& failure : made.ball_failures)
@@ -143,7 +166,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
     SiteNeighbours neighbours;
     neighbours.move_to(sites);
     const RestrictedDiagram diagram = restrict_to_triangles(model.points, model.triangles, neighbours);
-    Result<Attempt> made = attempt(model, diagram, sites.size(), options.merge);
+    Result<Attempt> made = attempt(model, diagram, sites.size(), options);
     if (!made) return made.failure();
     best = std::move(*made);
     std::vector<std::uint32_t> poor = best.bad_sites;
@@ -165,7 +188,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   result.merged_points = best.merged_points;
   result.cleaned_up = best.cleaned_up;
   result.ball_failures = best.ball_failures.size();
-  for (const ElementChange& change : compare_elements(model, best.dual, best.built.model))
+  for (const ElementChange& change : best.changes)
     result.changes.push_back({std::string(to_string(change.element)) + "_" + std::string(to_string(change.kind)),
                               describe(change, model, best.built.model), "smaller than a cell, or nearer than d_resolution_m"});
   if (!best.far_sites.empty())
@@ -179,6 +202,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   result.soup = std::move(evened->soup);
   result.soup.local_origin = model.local_origin;
   result.soup.regions = region_records(best.built.model);
+  result.bad_triangles = std::move(evened->report.bad_triangles);
   result.splits = evened->report.splits;
   result.collapses = evened->report.collapses;
   result.flips = evened->report.flips;

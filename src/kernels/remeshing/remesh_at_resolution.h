@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "kernels/remeshing/dual/component_points.h"
+#include "kernels/remeshing/guarded/remesh_guarded.h"
 #include "kernels/voronoi/optimise_sites.h"
 #include "model/structural_model.h"
 #include "model/triangle_soup.h"
@@ -14,6 +15,7 @@ namespace strataflow {
 
 struct RemeshAtResolutionOptions {
   MergeOptions merge;                ///< what may become one
+  bool must_keep_all = false;        ///< a lost, merged, split or new element is a flaw like any other
   std::int64_t rounds = 10;          ///< ≥ 0: of adding sites where the mesh is not valid yet, or too far away
   double wanted_distance_m = 0;      ///< sites are added also where input and dual lie farther apart; 0: nowhere
   OptimiseSitesOptions reoptimise;   ///< after sites were added
@@ -30,10 +32,11 @@ struct RemeshedAtResolution {
   std::uint64_t cleaned_up = 0;  ///< steps of the clean-up (pellerin2014 §2.8)
   std::uint64_t ball_failures = 0;  ///< cells and surfaces for which the topological ball property fails
   std::uint64_t splits = 0, collapses = 0, flips = 0, moves = 0;  ///< of evening out
+  std::vector<BadTriangle> bad_triangles;  ///< of the soup, below 5°
 };
 
 /// The surfaces of a model as the dual of the components of restricted Voronoi cells, what lies below the resolution
-/// merged (pellerin2014 chapter 4): points, polygons, clean-up; where the result is not a valid, sealed model, sites are
+/// merged (pellerin2014 chapter 4): points, polygons, clean-up; where the result is not a valid, sealed model (or not all is kept, if asked), sites are
 /// added to the cells concerned and all are optimised again. What then is valid is evened out by steps that keep it so.
 /// Fails with geometry_failed, naming the first flaw, when the rounds do not suffice; where only the wanted distance is
 /// not reached the change `far_from_input` says so.
