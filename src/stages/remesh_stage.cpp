@@ -128,10 +128,10 @@ Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, con
   report.topology_after = topology_of(after.model);
   Result<HausdorffDistance> distance = hausdorff_distance({before.model.points, before.model.triangles},
                                                           {after.model.points, after.model.triangles},
-                                                          {.error_ratio = 3e-4});
+                                                          {.error_ratio = 3e-4, .samples_per_triangle = 40});
   if (!distance) return distance.failure();
   report.hausdorff = *distance;
-  Result<std::vector<EntityDistance>> by_entity = hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3});
+  Result<std::vector<EntityDistance>> by_entity = hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3, .samples_per_triangle = 10});
   if (!by_entity) return by_entity.failure();
   report.by_entity = std::move(*by_entity);
   if (!options.must_preserve_all) return report;  // what changed, and why, is told by who changed it

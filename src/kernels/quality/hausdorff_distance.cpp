@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "graph/parallel/parallel_map.h"
@@ -99,13 +100,14 @@ Split split_of(const Piece& piece, double enough_m, const NearestTriangle& other
 }
 
 /// Searches one triangle for points farther than `beaten_m` by more than `error_m`.
-Found search(const Piece& whole, double beaten_m, double error_m, const NearestTriangle& other) {
+Found search(const Piece& whole, double beaten_m, double error_m, std::uint64_t most_samples,
+             const NearestTriangle& other) {
   Found found{beaten_m, 0, {}, 0};
   std::vector<Piece> stack{whole};
   while (!stack.empty()) {
     const Piece piece = stack.back();
     stack.pop_back();
-    if (piece.bound_m <= found.distance_m + error_m) {
+    if (piece.bound_m <= found.distance_m + error_m || found.samples >= most_samples) {
       found.bound_m = std::max(found.bound_m, piece.bound_m);
       continue;
     }
@@ -136,7 +138,8 @@ Found search(const Piece& whole, double beaten_m, double error_m, const NearestT
   return found;
 }
 
-DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other, double error_m) {
+DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other, double error_m,
+                          std::uint64_t most_samples) {
   std::vector<char> is_used(mesh.points.size(), 0);  // only vertices of triangles count
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) is_used[v] = 1;
@@ -190,7 +193,7 @@ DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other
         std::min(batch, candidates.size() - begin),
         [&](std::size_t i) {
           const Candidate& candidate = candidates[begin + i];
-          return search({corners(candidate.triangle), candidate.bound_m}, beaten_m, error_m, other);
+          return search({corners(candidate.triangle), candidate.bound_m}, beaten_m, error_m, most_samples, other);
         },
         8);
     for (const Found& one : found) {
@@ -230,8 +233,9 @@ Result<HausdorffDistance> hausdorff_distance(const TriangleMesh& first, const Tr
   for (const Triangle& t : second.triangles)
     for (const std::uint32_t v : t) box.take(second.points[v]);
   const double error_m = options.error_ratio * box.diagonal_m();
-  result.forward = directed(first, NearestTriangle(second), error_m);
-  result.backward = directed(second, NearestTriangle(first), error_m);
+  const std::uint64_t most = options.samples_per_triangle.value_or(std::numeric_limits<std::uint64_t>::max());
+  result.forward = directed(first, NearestTriangle(second), error_m, most);
+  result.backward = directed(second, NearestTriangle(first), error_m, most);
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,9 @@ namespace strataflow {
 
 struct HausdorffOptions {
   double error_ratio = 1e-4;  ///< largest error allowed, in the diagonal of the box around both meshes; > 0
+  /// At most so many samples in one triangle besides its corners: where that does not suffice the error is larger, and
+  /// `bound_m` says by how much. Absent: as many as the error takes.
+  std::optional<std::uint64_t> samples_per_triangle = std::nullopt;
 };
 
 /// sup over one mesh of the distance to the other. The true value lies in [distance_m, bound_m].

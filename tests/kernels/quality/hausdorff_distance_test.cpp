@@ -140,5 +140,20 @@ TEST(HausdorffByEntity, compares_features_of_the_same_name_and_names_those_that_
   EXPECT_TRUE(distances[3].is_missing);
 }
 
+TEST(HausdorffDistance, with_few_samples_says_how_much_it_may_have_missed) {
+  // A ridge over a flat sheet of two triangles: no corner of the sheet sees it.
+  const std::vector<Vec3> flat{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  std::vector<Vec3> ridged = flat;
+  ridged.push_back({0.5, 0.3, 0.2});
+  const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}}, four{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+  const auto exact = hausdorff_distance({flat, two}, {ridged, four});
+  const auto rough = hausdorff_distance({flat, two}, {ridged, four}, {.samples_per_triangle = 1});
+  ASSERT_TRUE(exact && rough);
+  EXPECT_LT(rough->forward.samples, exact->forward.samples);
+  EXPECT_LE(rough->forward.distance_m, exact->forward.bound_m);
+  EXPECT_GE(rough->forward.bound_m, exact->forward.distance_m);
+  EXPECT_GT(rough->forward.bound_m - rough->forward.distance_m, exact->forward.bound_m - exact->forward.distance_m);
+}
+
 }  // namespace
 }  // namespace strataflow
