@@ -9,7 +9,7 @@
 #include "io/mesh/write_abaqus.h"
 #include "io/mesh/write_gmsh.h"
 #include "io/mesh/write_medit.h"
-#include "io/model_file/soup_of_model.h"
+#include "model/soup_of_model.h"
 #include "io/model_file/write_model_file.h"
 #include "io/surface/write_obj.h"
 #include "io/vtk/write_vtk_xml.h"

@@ -14,7 +14,7 @@
 #include "io/mesh/read_medit.h"
 #include "io/mesh/read_ucd.h"
 #include "io/model_file/read_model_file.h"
-#include "io/model_file/soup_of_model.h"
+#include "model/soup_of_model.h"
 #include "io/surface/read_obj.h"
 #include "io/surface/read_off.h"
 #include "io/surface/read_ply.h"

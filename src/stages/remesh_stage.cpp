@@ -9,60 +9,35 @@ namespace strataflow {
 
 namespace {
 
-/// The names of regions, as a file would list them, for the model that is built of the remeshed surfaces.
-std::vector<RegionRecord> region_records(const StructuralModel& model) {
-  std::vector<RegionRecord> records(model.regions.size());
-  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = model.regions[i].name;
-  for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
-    const Surface& surface = model.surfaces[s];
-    if (surface.region_plus != universe) records[surface.region_plus].sides.push_back({s, 1});
-    if (surface.region_minus != universe) records[surface.region_minus].sides.push_back({s, 0});
-  }
-  return records;
-}
-
-std::vector<KeptTriangle> kept_of(const std::vector<BadTriangle>& triangles) {
-  std::vector<KeptTriangle> kept;
-  for (const BadTriangle& bad : triangles)
-    kept.push_back({bad.triangle, bad.smallest_angle_deg,
-                    static_cast<std::uint8_t>(bad.reason == BadTriangleReason::touches_small_feature), {}});
-  return kept;
-}
-
-std::string counted(std::size_t before, std::size_t after, const char* what) {
-  return std::to_string(before) + " " + what + " became " + std::to_string(after);
-}
-
-}  // namespace
-
-namespace {
-
-RemeshedSurfaces surfaces_of(RemeshedAtResolution result) {
+RemeshedSurfaces surfaces_of(RemeshGuardedResult result) {
   RemeshedSurfaces remeshed;
   remeshed.soup = std::move(result.soup);
-  remeshed.added_sites = result.added_sites;
-  remeshed.merged_points = result.merged_points;
-  remeshed.ball_failures = result.ball_failures;
-  remeshed.splits = result.splits;
-  remeshed.collapses = result.collapses;
-  remeshed.flips = result.flips;
-  remeshed.moves = result.moves;
-  remeshed.kept = kept_of(result.bad_triangles);
-  remeshed.changes = std::move(result.changes);
-  return remeshed;
-}
-
-RemeshedSurfaces surfaces_of(RemeshGuardedResult result, const StructuralModel& model) {
-  RemeshedSurfaces remeshed;
-  remeshed.soup = std::move(result.soup);
-  remeshed.soup.local_origin = model.local_origin;
-  remeshed.soup.regions = region_records(model);
   remeshed.splits = result.report.splits;
   remeshed.collapses = result.report.collapses;
   remeshed.flips = result.report.flips;
   remeshed.moves = result.report.moves;
-  remeshed.kept = kept_of(result.report.bad_triangles);
+  for (const BadTriangle& bad : result.report.bad_triangles)
+    remeshed.kept.push_back({bad.triangle, bad.smallest_angle_deg,
+                             static_cast<std::uint8_t>(bad.reason == BadTriangleReason::touches_small_feature), {}});
   return remeshed;
+}
+
+/// The first corner, line, surface, region or contact that is gone or new.
+std::optional<Failure> why_not_preserved(const SurfaceMeshReport& before, const SurfaceMeshReport& after) {
+  std::string what;
+  const auto count = [&](std::uint64_t was, std::uint64_t is, const char* elements) {
+    if (was != is && what.empty())
+      what = std::to_string(was) + " " + elements + " became " + std::to_string(is);
+  };
+  if (const std::vector<Change> contacts = contact_changes(before, after); !contacts.empty())
+    what = contacts.front().what;
+  count(before.corners, after.corners, "corners");
+  count(before.lines, after.lines, "lines");
+  count(before.surfaces, after.surfaces, "surfaces");
+  count(before.regions, after.regions, "regions");
+  if (what.empty()) return {};
+  return Failure{FailureCode::geometry_failed, "remeshing changed what it was to preserve: " + what,
+                 "this is a defect of the remesher: please report the model; preserve = \"resolution\" allows it"};
 }
 
 }  // namespace
@@ -79,7 +54,7 @@ Result<RemeshedSurfaces> Remesh::operator()(const BuiltModel& built, const Valid
   Result<RemeshGuardedResult> result = remesh_guarded(built.model, guarded);
   if (!result) return result.failure();
   if (context.is_cancelled()) return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
-  RemeshedSurfaces remeshed = surfaces_of(std::move(*result), built.model);
+  RemeshedSurfaces remeshed = surfaces_of(std::move(*result));
   remeshed.edge_length_m = plan->edge_length_m;
   remeshed.sites_asked = plan->sites;
   return remeshed;
@@ -109,7 +84,11 @@ Result<RemeshedSurfaces> RemeshByCells::operator()(const BuiltModel& built, cons
     return Remesh{options}(built, validity, context);
   }
   if (!result) return result.failure();
-  RemeshedSurfaces remeshed = surfaces_of(std::move(*result));
+  RemeshedSurfaces remeshed = surfaces_of(std::move(result->evened));
+  remeshed.added_sites = result->added_sites;
+  remeshed.merged_points = result->merged_points;
+  remeshed.ball_failures = result->ball_failures;
+  remeshed.changes = std::move(result->changes);
   remeshed.edge_length_m = sites.edge_length_m;
   remeshed.sites_asked = sites.sites.size() - sites.sites_on_box;
   return remeshed;
@@ -124,6 +103,8 @@ Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, con
   SurfacesReport report;
   report.before = analyze_surface_mesh(before.model);
   report.after = analyze_surface_mesh(after.model);
+  if (options.must_preserve_all)
+    if (std::optional<Failure> failure = why_not_preserved(report.before, report.after)) return *failure;
   report.topology_before = topology_of(before.model);
   report.topology_after = topology_of(after.model);
   Result<HausdorffDistance> distance = hausdorff_distance({before.model.points, before.model.triangles},
@@ -131,23 +112,10 @@ Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, con
                                                           {.error_ratio = 3e-4, .samples_per_triangle = 40});
   if (!distance) return distance.failure();
   report.hausdorff = *distance;
-  Result<std::vector<EntityDistance>> by_entity = hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3, .samples_per_triangle = 10});
+  Result<std::vector<EntityDistance>> by_entity =
+      hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3, .samples_per_triangle = 10});
   if (!by_entity) return by_entity.failure();
   report.by_entity = std::move(*by_entity);
-  if (!options.must_preserve_all) return report;  // what changed, and why, is told by who changed it
-  report.changes = contact_changes(report.before, report.after);
-  const auto count = [&](std::size_t was, std::size_t is, const char* what) {
-    if (was != is)
-      report.changes.push_back({std::string(what) + "_changed", counted(was, is, what), "below the resolution"});
-  };
-  count(report.before.corners, report.after.corners, "corners");
-  count(report.before.lines, report.after.lines, "lines");
-  count(report.before.surfaces, report.after.surfaces, "surfaces");
-  count(report.before.regions, report.after.regions, "regions");
-  if (!report.changes.empty())
-    return Failure{FailureCode::geometry_failed,
-                   "remeshing changed what it was to preserve: " + report.changes.front().what,
-                   "this is a defect of the remesher: please report the model; preserve = \"resolution\" allows it"};
   return report;
 }
 

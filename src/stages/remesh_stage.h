@@ -36,7 +36,8 @@ struct RemeshedSurfaces {
   std::vector<Change> changes;
   template <class A>
   void archive(A& a) {
-    a(soup, edge_length_m, sites_asked, added_sites, merged_points, ball_failures, splits, collapses, flips, moves, kept, changes);
+    a(soup, edge_length_m, sites_asked, added_sites, merged_points, ball_failures, splits, collapses, flips, moves,
+      kept, changes);
   }
 };
 
@@ -74,7 +75,7 @@ struct RemeshStageOptions {
 /// keeps all and leaves the mesh valid.
 struct Remesh {
   static constexpr std::string_view name = "remesh";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity,
@@ -85,7 +86,7 @@ struct Remesh {
 /// input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
 struct RemeshByCells {
   static constexpr std::string_view name = "remesh_by_cells";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity, const SiteSet& sites,
@@ -107,10 +108,9 @@ struct SurfacesReport {
   ModelTopology topology_before, topology_after;
   HausdorffDistance hausdorff;
   std::vector<EntityDistance> by_entity;
-  std::vector<Change> changes;  ///< of contacts and counts
   template <class A>
   void archive(A& a) {
-    a(before, after, topology_before, topology_after, hausdorff, by_entity, changes);
+    a(before, after, topology_before, topology_after, hausdorff, by_entity);
   }
 };
 
@@ -118,7 +118,7 @@ struct SurfacesReport {
 /// preserved, a corner, line, surface or region is gone or new: such a mesh is not written.
 struct CompareSurfaces {
   static constexpr std::string_view name = "compare_surfaces";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   struct Options {
     bool must_preserve_all = true;
     template <class Visitor>

@@ -11,7 +11,7 @@
 #include "base/atomic_file.h"
 #include "base/digest.h"
 #include "io/model_file/read_model_file.h"
-#include "io/model_file/soup_of_model.h"
+#include "model/soup_of_model.h"
 #include "io/model_file/write_model_file.h"
 
 namespace {

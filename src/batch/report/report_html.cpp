@@ -148,9 +148,7 @@ std::string surfaces_section(const RemeshedSurfaces& remeshed, const ValidityRep
                           {"triangles that keep an angle below 5°", count(remeshed.kept.size())}});
   html += "<div class=\"row\">\n" + svg_histogram(after.triangles.angle_deg) +
           svg_histogram(after.triangles.quality) + "</div>\n";
-  std::vector<Change> changes = remeshed.changes;
-  changes.insert(changes.end(), report.changes.begin(), report.changes.end());
-  return html + changes_table(changes);
+  return html + changes_table(remeshed.changes);
 }
 
 std::string complexity_section(const ComplexityReport& report) {

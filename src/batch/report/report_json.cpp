@@ -252,9 +252,7 @@ Json surfaces_block(const SiteSet* sites, const RemeshedSurfaces& remeshed, cons
                     {"why", triangle.touches_small_feature ? "small feature of the input" : "no valid step mends it"}});
   }
   json["triangles_below_5_deg"] = std::move(kept);
-  std::vector<Change> changes = remeshed.changes;
-  changes.insert(changes.end(), report.changes.begin(), report.changes.end());
-  json["changes"] = json_of(changes);
+  json["changes"] = json_of(remeshed.changes);
   return json;
 }
 

@@ -18,6 +18,7 @@
 #include "kernels/topology/validity/check_validity.h"
 #include "kernels/voronoi/line_edges.h"
 #include "kernels/voronoi/restricted_diagram.h"
+#include "model/soup_of_model.h"
 
 namespace strataflow {
 
@@ -28,24 +29,12 @@ struct Attempt {
   DualSoup dual;
   BuiltModel built;
   std::vector<BallFailure> ball_failures;
-  std::uint64_t merged_points = 0, cleaned_up = 0;
+  std::uint64_t merged_points = 0;
   std::vector<std::uint32_t> bad_sites;  ///< whose cells the flaws are in; ascending
   std::vector<ElementChange> changes;
   std::string flaw;                      ///< empty: valid
   std::vector<std::uint32_t> far_sites;  ///< where a valid dual lies too far from the input; ascending
 };
-
-/// The names of regions, as a file would list them, for the model that is built of the dual.
-std::vector<RegionRecord> region_records(const StructuralModel& model) {
-  std::vector<RegionRecord> records(model.regions.size());
-  for (std::size_t i = 0; i < records.size(); ++i) records[i].name = model.regions[i].name;
-  for (std::uint32_t s = 0; s < model.surfaces.size(); ++s) {
-    const Surface& surface = model.surfaces[s];
-    if (surface.region_plus != universe) records[surface.region_plus].sides.push_back({s, 1, {}});
-    if (surface.region_minus != universe) records[surface.region_minus].sides.push_back({s, 0, {}});
-  }
-  return records;
-}
 
 /// The sites in whose cells changed elements lie.
 std::vector<std::uint32_t> sites_of_changes(const std::vector<ElementChange>& changes, const CellComponents& components,
@@ -72,12 +61,11 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
   Attempt made;
   const ComponentPoints points = place_component_points(model, diagram, *components, options.merge);
   DualMesh mesh = build_dual_polygons(model, diagram, *components, points);
-  made.cleaned_up = clean_up_dual(model, mesh).done.size();
+  clean_up_dual(model, mesh);
   made.merged_points = points.merges.size();
   made.ball_failures = check_ball_property(model, diagram, *components);
   made.dual = make_dual_soup(model, mesh);
-  made.dual.soup.local_origin = model.local_origin;
-  made.dual.soup.regions = region_records(model);
+  made.dual.soup.regions = patches_of_model(model).regions;  // for their names
 
   const TriangleSoup& soup = made.dual.soup;
   for (const auto& pair : find_intersections(soup.points, soup.triangles)) {
@@ -111,11 +99,10 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
 
 /// Sites in whose cells input and dual lie farther apart than `wanted_m`, looking from the corners of pieces and from the
 /// middle of the dual's triangles.
-std::vector<std::uint32_t> far_sites(const StructuralModel& model, const RestrictedDiagram& diagram,
+std::vector<std::uint32_t> far_sites(const NearestTriangle& to_model, const RestrictedDiagram& diagram,
                                      const DualSoup& dual, double wanted_m) {
   const double wanted = wanted_m * wanted_m;
   const NearestTriangle to_dual({dual.soup.points, dual.soup.triangles});
-  const NearestTriangle to_model({model.points, model.triangles});
   const auto far_pieces = parallel_map(diagram.piece_count(), [&](std::size_t i) {
     for (const Vec3& corner : diagram.piece_points(i))
       if (to_dual.nearest(corner).squared_m2 > wanted) return diagram.piece_site[i];
@@ -160,6 +147,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   if (sites.empty()) return Failure{FailureCode::invalid_input, "there are no sites", "ask for more sites"};
   const std::vector<LineEdge> lines = line_edges(model);
   const CvtDomain domain{model.points, model.triangles, {}, lines};
+  const NearestTriangle to_model({model.points, model.triangles});
   const std::size_t asked = sites.size();
   Attempt best;
   for (std::int64_t round = 0;; ++round) {
@@ -171,7 +159,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
     best = std::move(*made);
     std::vector<std::uint32_t> poor = best.bad_sites;
     if (best.flaw.empty() && options.wanted_distance_m > 0)
-      poor = best.far_sites = far_sites(model, diagram, best.dual, options.wanted_distance_m);
+      poor = best.far_sites = far_sites(to_model, diagram, best.dual, options.wanted_distance_m);
     if (best.flaw.empty() && (poor.empty() || round == options.rounds)) break;
     if (options.is_cancelled && options.is_cancelled())
       return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
@@ -186,7 +174,6 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   RemeshedAtResolution result;
   result.added_sites = sites.size() - asked;
   result.merged_points = best.merged_points;
-  result.cleaned_up = best.cleaned_up;
   result.ball_failures = best.ball_failures.size();
   for (const ElementChange& change : best.changes)
     result.changes.push_back({std::string(to_string(change.element)) + "_" + std::string(to_string(change.kind)),
@@ -199,14 +186,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   guarded.distance_ratio = options.distance_ratio;
   Result<RemeshGuardedResult> evened = remesh_guarded(best.built.model, guarded);
   if (!evened) return evened.failure();
-  result.soup = std::move(evened->soup);
-  result.soup.local_origin = model.local_origin;
-  result.soup.regions = region_records(best.built.model);
-  result.bad_triangles = std::move(evened->report.bad_triangles);
-  result.splits = evened->report.splits;
-  result.collapses = evened->report.collapses;
-  result.flips = evened->report.flips;
-  result.moves = evened->report.moves;
+  result.evened = std::move(*evened);
   return result;
 }
 

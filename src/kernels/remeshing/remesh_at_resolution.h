@@ -25,14 +25,11 @@ struct RemeshAtResolutionOptions {
 };
 
 struct RemeshedAtResolution {
-  TriangleSoup soup;             ///< a patch per surface of the dual's model
+  RemeshGuardedResult evened;    ///< a patch per surface of the dual's model; what evening it out did
   std::vector<Change> changes;   ///< every element lost, merged, split or created, and why
   std::uint64_t added_sites = 0;
   std::uint64_t merged_points = 0;
-  std::uint64_t cleaned_up = 0;  ///< steps of the clean-up (pellerin2014 §2.8)
   std::uint64_t ball_failures = 0;  ///< cells and surfaces for which the topological ball property fails
-  std::uint64_t splits = 0, collapses = 0, flips = 0, moves = 0;  ///< of evening out
-  std::vector<BadTriangle> bad_triangles;  ///< of the soup, below 5°
 };
 
 /// The surfaces of a model as the dual of the components of restricted Voronoi cells, what lies below the resolution

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "graph/parallel/parallel_map.h"
+#include "kernels/voronoi/cvt_share.h"
 #include "kernels/voronoi/restricted_diagram.h"
 #include "kernels/voronoi/triangle_cells.h"
 
@@ -12,18 +13,11 @@ namespace strataflow {
 
 namespace {
 
-/// What a run of triangles adds to one site. The moment is taken relative to the site: no digits are lost far away.
-struct Share {
-  std::uint32_t site = 0;
-  double mass = 0, energy = 0;
-  Vec3 moment;
-};
-
 /// Shares of a run of triangles, in order of first need; a site may come twice where two compete for a slot.
 class ShareList {
  public:
   ShareList() { slots_.fill(none); }
-  Share& of(std::uint32_t site) {
+  CvtShare& of(std::uint32_t site) {
     std::uint32_t& slot = slots_[(site * 2654435761u) >> (32 - slot_bits)];
     if (slot == none || shares[slot].site != site) {
       slot = static_cast<std::uint32_t>(shares.size());
@@ -32,7 +26,7 @@ class ShareList {
     }
     return shares[slot];
   }
-  std::vector<Share> shares;
+  std::vector<CvtShare> shares;
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu;
@@ -41,7 +35,7 @@ class ShareList {
 };
 
 /// Moments of a triangle given by its corners relative to the site, with the density at each.
-void add_triangle(const std::array<Vec3, 3>& u, Share& share) {
+void add_triangle(const std::array<Vec3, 3>& u, CvtShare& share) {
   const Vec3 normal = cross(u[1] - u[0], u[2] - u[0]);
   const double area = 0.5 * length(normal);
   const Vec3 sum = u[0] + u[1] + u[2];
@@ -51,7 +45,7 @@ void add_triangle(const std::array<Vec3, 3>& u, Share& share) {
   share.energy += area / 12 * (dot(u[0], u[0]) + dot(u[1], u[1]) + dot(u[2], u[2]) + dot(sum, sum));
 }
 
-void add_triangle(const std::array<Vec3, 3>& u, const std::array<double, 3>& density, Share& share) {
+void add_triangle(const std::array<Vec3, 3>& u, const std::array<double, 3>& density, CvtShare& share) {
   const double area = 0.5 * length(cross(u[1] - u[0], u[2] - u[0]));
   const double total = density[0] + density[1] + density[2];
   share.mass += area / 3 * total;
@@ -106,9 +100,6 @@ void pull_by_end(const Vec3& end, const Vec3& along, const Vec3& by_end, std::ui
 
 void CvtEnergy::evaluate(const std::vector<Vec3>& sites, bool with_attraction, CvtTerms& terms) {
   neighbours_.move_to(sites);
-  // Guesses of owners may be of another number of sites.
-  if (std::any_of(owners_.begin(), owners_.end(), [&](std::uint32_t owner) { return owner >= sites.size(); }))
-    owners_.clear();
   find_owners(domain_.points, neighbours_, owners_);
   const bool has_density = !domain_.density.empty();
 
@@ -135,7 +126,7 @@ void CvtEnergy::evaluate(const std::vector<Vec3>& sites, bool with_attraction, C
       for (std::size_t i = 0; i < cells.piece_count(); ++i) {
         const TrianglePiece piece = cells.piece(i);
         const Vec3& site = sites[piece.site];
-        Share& share = list.of(piece.site);
+        CvtShare& share = list.of(piece.site);
         for (std::size_t k = 2; k < piece.points.size(); ++k) {
           const std::array<Vec3, 3> u{piece.points[0] - site, piece.points[k - 1] - site, piece.points[k] - site};
           if (has_density)
@@ -149,25 +140,9 @@ void CvtEnergy::evaluate(const std::vector<Vec3>& sites, bool with_attraction, C
     return std::move(list.shares);
   });
 
-  const std::size_t site_count = sites.size();
-  terms.quantization = 0;
-  terms.attraction = 0;
-  terms.energy.assign(site_count, 0);
-  terms.mass.assign(site_count, 0);
-  terms.quantization_gradient.assign(site_count, Vec3{});
-  terms.attraction_gradient.assign(with_attraction ? site_count : 0, Vec3{});
-  terms.centroid = sites;
-  for (const std::vector<Share>& chunk : chunks)
-    for (const Share& share : chunk) {
-      terms.quantization += share.energy;
-      terms.energy[share.site] += share.energy;
-      terms.mass[share.site] += share.mass;
-      terms.quantization_gradient[share.site] = terms.quantization_gradient[share.site] - 2 * share.moment;
-    }
-  for (std::size_t i = 0; i < site_count; ++i)
-    if (terms.mass[i] > 0)
-      terms.centroid[i] = sites[i] - (0.5 / terms.mass[i]) * terms.quantization_gradient[i];
+  sum_shares(chunks, sites, terms);
   if (!with_attraction) return;
+  terms.attraction_gradient.assign(sites.size(), Vec3{});
 
   const auto pulls = parallel_map(domain_.line_edges.size(), [&](std::size_t index) {
     const auto [t, edge] = domain_.line_edges[index];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "graph/parallel/parallel_map.h"
+#include "kernels/voronoi/cvt_share.h"
 #include "kernels/voronoi/restricted_diagram.h"
 #include "kernels/voronoi/tetrahedron_cells.h"
 
@@ -11,15 +12,8 @@ namespace strataflow {
 
 namespace {
 
-/// What one tetrahedron adds to one site, the moment relative to the site.
-struct Share {
-  std::uint32_t site = 0;
-  double mass = 0, energy = 0;
-  Vec3 moment;
-};
-
 /// Of a tetrahedron given by its corners relative to the site, and its signed volume.
-void add_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, Share& share) {
+void add_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, CvtShare& share) {
   const double volume = dot(b - a, cross(c - a, d - a)) / 6;
   const Vec3 sum = a + b + c + d;
   share.mass += volume;
@@ -32,13 +26,11 @@ void add_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d,
 
 void CvtVolumeEnergy::evaluate(const std::vector<Vec3>& sites, bool, CvtTerms& terms) {
   neighbours_.move_to(sites);
-  if (std::any_of(owners_.begin(), owners_.end(), [&](std::uint32_t owner) { return owner >= sites.size(); }))
-    owners_.clear();
   find_owners(points_, neighbours_, owners_);
   constexpr std::size_t grain = 16;
   const std::size_t count = tetrahedra_.size();
   const auto chunks = parallel_map((count + grain - 1) / grain, [&](std::size_t chunk) {
-    std::vector<Share> shares;
+    std::vector<CvtShare> shares;
     TetrahedronCells cells(neighbours_);
     const std::size_t end = std::min(count, (chunk + 1) * grain);
     for (std::size_t t = chunk * grain; t < end; ++t) {
@@ -67,22 +59,7 @@ void CvtVolumeEnergy::evaluate(const std::vector<Vec3>& sites, bool, CvtTerms& t
     }
     return shares;
   });
-  terms.quantization = terms.attraction = 0;
-  terms.energy.assign(sites.size(), 0);
-  terms.mass.assign(sites.size(), 0);
-  terms.quantization_gradient.assign(sites.size(), Vec3{});
-  terms.attraction_gradient.clear();
-  terms.centroid = sites;
-  for (const std::vector<Share>& chunk : chunks)
-    for (const Share& share : chunk) {
-      terms.quantization += share.energy;
-      terms.energy[share.site] += share.energy;
-      terms.mass[share.site] += share.mass;
-      terms.quantization_gradient[share.site] = terms.quantization_gradient[share.site] - 2 * share.moment;
-    }
-  for (std::size_t i = 0; i < sites.size(); ++i)
-    if (terms.mass[i] > 0)
-      terms.centroid[i] = sites[i] - (0.5 / terms.mass[i]) * terms.quantization_gradient[i];
+  sum_shares(chunks, sites, terms);
 }
 
 TetrahedralBox tetrahedral_box(const Vec3& low, const Vec3& high, std::size_t blocks) {

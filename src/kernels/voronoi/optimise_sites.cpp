@@ -123,7 +123,6 @@ OptimisedSites optimise_sites(SiteEnergy& energy, std::vector<Vec3> sites, const
     };
     const Minimized minimized = minimize(x, objective, {.iterations = options.iterations,
                                                         .gradient_ratio = 1e-9,
-                                                        .improvement_ratio = options.improvement_ratio,
                                                         .is_cancelled = options.is_cancelled});
     for (const MinimizeStep& step : minimized.steps)
       result.newton_steps.push_back({step.value / unit, step.gradient_norm / (unit * scale)});

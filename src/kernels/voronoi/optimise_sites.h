@@ -15,7 +15,6 @@ struct OptimiseSitesOptions {
   std::size_t iterations = 100;       ///< quasi-Newton steps after them, at most
   /// Weight of the attraction of lines against the even spread, in [0, 1): absent, both pull alike at the start.
   std::optional<double> line_attraction = 0.0;
-  double improvement_ratio = 0;       ///< stop when ten steps improved the energy by less than this share; 0: never
   std::function<bool()> is_cancelled = {};  ///< asked after every step: true stops where we are
 };
 

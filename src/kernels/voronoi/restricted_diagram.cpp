@@ -1,12 +1,17 @@
 #include "kernels/voronoi/restricted_diagram.h"
 
+#include <algorithm>
+
 #include "graph/parallel/parallel_map.h"
 #include "kernels/voronoi/triangle_cells.h"
 
 namespace strataflow {
 
 void find_owners(std::span<const Vec3> points, const SiteNeighbours& neighbours, std::vector<std::uint32_t>& owners) {
-  const bool has_guesses = owners.size() == points.size();
+  const std::size_t site_count = neighbours.sites().size();
+  const bool has_guesses =
+      owners.size() == points.size() &&
+      std::all_of(owners.begin(), owners.end(), [&](std::uint32_t owner) { return owner < site_count; });
   owners.resize(points.size());
   parallel_ranges(points.size(), 2048, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)

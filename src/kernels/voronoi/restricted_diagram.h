@@ -9,7 +9,8 @@
 
 namespace strataflow {
 
-/// Per point of a mesh the nearest site. `owners` holds guesses (the last answer, if sites moved a little), or nothing.
+/// Per point of a mesh the nearest site. `owners` holds guesses (the last answer, if sites moved a little); others
+/// than one site for each point are none.
 void find_owners(std::span<const Vec3> points, const SiteNeighbours& neighbours, std::vector<std::uint32_t>& owners);
 
 /// Needs at least one site. No neighbour triangles are walked: triangles are independent, and cut in parallel.

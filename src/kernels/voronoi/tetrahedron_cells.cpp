@@ -5,19 +5,11 @@
 #include <functional>
 
 #include "kernels/adapters/cgal/bisector_side.h"
+#include "kernels/voronoi/clip_by_neighbours.h"
 
 namespace strataflow {
 
 namespace {
-constexpr double unit = 0x1.0p-53;
-constexpr double security = 2 * (1 + 1e-6);  // a site farther than twice the reach cannot come nearer than the owner
-constexpr double well_known = 1e8;           // weights this many times their error place a corner to within `security`
-
-double squared_distance(const Vec3& a, const Vec3& b) {
-  const Vec3 d = a - b;
-  return dot(d, d);
-}
-
 double determinant(double a, double b, double c, double d, double e, double f, double g, double h, double i) {
   return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g);
 }
@@ -74,31 +66,10 @@ void TetrahedronCells::cut_piece(std::uint32_t owner) {
   polyhedron_.clear();
   constexpr std::array<std::array<std::uint32_t, 3>, 4> planes{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
   for (std::size_t i = 0; i < 4; ++i) polyhedron_.push_back(make_corner(planes[i]));
-  double trusted = security * reach() + neighbours_.slack();
-  bool is_settled = neighbours_.lists_hold_all();
-  const auto near = neighbours_.near(owner);
-  for (const NearSite& other : near) {
-    if (other.distance > trusted) {
-      is_settled = true;
-      break;
-    }
-    if (clip(other.site)) {
-      if (polyhedron_.empty()) return;
-      trusted = security * reach() + neighbours_.slack();
-    }
-  }
-  if (!is_settled) {
-    neighbours_.find_within(owner, security * reach(), beyond_);
-    for (const NearSite& other : beyond_) {
-      if (other.distance < near.back().distance || has_face_with(other.site)) continue;
-      if (other.distance > trusted) break;
-      if (clip(other.site)) {
-        if (polyhedron_.empty()) return;
-        trusted = security * reach() + neighbours_.slack();
-      }
-    }
-  }
-  emit();
+  if (clip_by_neighbours(
+          neighbours_, owner, beyond_, [&] { return reach(); }, [&](std::uint32_t site) { return clip(site); },
+          [&] { return polyhedron_.empty(); }, [&](std::uint32_t site) { return has_face_with(site); }))
+    emit();
 }
 
 bool TetrahedronCells::clip(std::uint32_t site) {
@@ -108,7 +79,7 @@ bool TetrahedronCells::clip(std::uint32_t site) {
   for (std::size_t i = 0; i < 4; ++i) {
     const double distance = squared_distance(corners_[i], at);
     bisector.value[i] = distance - owner_distance_[i];
-    bisector.error = std::max(bisector.error, 8 * unit * (distance + owner_distance_[i]));
+    bisector.error = std::max(bisector.error, 8 * half_ulp * (distance + owner_distance_[i]));
     bisector.largest = std::max(bisector.largest, std::abs(bisector.value[i]));
   }
   for (const double value : bisector.value) is_off = is_off && value > bisector.error;
@@ -169,7 +140,7 @@ TetrahedronCells::Corner TetrahedronCells::make_corner(const std::array<std::uin
   }
   std::array<double, 4> weight{};
   cofactors(count, rows, weight);
-  corner.error = 8 * product * (relative + 16 * unit);
+  corner.error = 8 * product * (relative + 16 * half_ulp);
   double sum = 0;
   for (std::size_t j = 0; j < count; ++j) sum += weight[j];
   bool is_turned = sum < 0;

@@ -5,19 +5,9 @@
 
 #include "base/internal_error.h"
 #include "kernels/adapters/cgal/bisector_side.h"
+#include "kernels/voronoi/clip_by_neighbours.h"
 
 namespace strataflow {
-
-namespace {
-constexpr double unit = 0x1.0p-53;
-constexpr double security = 2 * (1 + 1e-6);  // a site farther than twice the reach cannot come nearer than the owner
-constexpr double well_known = 1e8;           // weights this many times their error place a corner to within `security`
-
-double squared_distance(const Vec3& a, const Vec3& b) {
-  const Vec3 d = a - b;
-  return dot(d, d);
-}
-}  // namespace
 
 std::uint32_t find_nearest_site(const SiteNeighbours& neighbours, const Vec3& x, std::uint32_t hint) {
   const std::vector<Vec3>& sites = neighbours.sites();
@@ -26,7 +16,7 @@ std::uint32_t find_nearest_site(const SiteNeighbours& neighbours, const Vec3& x,
   const auto beats = [&](std::uint32_t other, double& other_distance) {
     other_distance = squared_distance(x, sites[other]);
     const double difference = other_distance - distance;
-    if (std::abs(difference) > 8 * unit * (other_distance + distance)) return difference < 0;
+    if (std::abs(difference) > 8 * half_ulp * (other_distance + distance)) return difference < 0;
     const PerturbedSite own{sites[owner], owner}, its{sites[other], other};
     return bisector_side({&x, 1}, own, {}, its) < 0;
   };
@@ -81,27 +71,10 @@ void TriangleCells::cut_piece(std::uint32_t owner) {
     corner.weight[i] = 1;
     polygon_.push_back(corner);
   }
-  double trusted = security * reach() + neighbours_.slack();
-  bool is_settled = neighbours_.lists_hold_all();
-  const auto near = neighbours_.near(owner);
-  for (const NearSite& other : near) {
-    if (other.distance > trusted) {
-      is_settled = true;
-      break;
-    }
-    const std::size_t before = bisectors_.size();
-    clip(other.site);
-    if (polygon_.empty()) return;
-    if (bisectors_.size() != before) trusted = security * reach() + neighbours_.slack();
-  }
-  if (!is_settled) {
-    neighbours_.find_within(owner, security * reach(), beyond_);
-    for (const NearSite& other : beyond_) {
-      if (other.distance < near.back().distance || has_edge_with(other.site)) continue;
-      clip(other.site);
-      if (polygon_.empty()) return;
-    }
-  }
+  if (!clip_by_neighbours(
+          neighbours_, owner, beyond_, [&] { return reach(); }, [&](std::uint32_t site) { return clip(site); },
+          [&] { return polygon_.empty(); }, [&](std::uint32_t site) { return has_edge_with(site); }))
+    return;
   pieces_.push_back({owner, static_cast<std::uint32_t>(points_.size()), static_cast<std::uint32_t>(polygon_.size())});
   for (const Corner& corner : polygon_) {
     points_.push_back(position(corner));
@@ -115,18 +88,18 @@ void TriangleCells::cut_piece(std::uint32_t owner) {
   }
 }
 
-void TriangleCells::clip(std::uint32_t site) {
+bool TriangleCells::clip(std::uint32_t site) {
   const Vec3& at = neighbours_.sites()[site];
   Bisector bisector{site, {}, {}, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {
     const double distance = squared_distance(corners_[i], at);
     bisector.distance[i] = distance;
     bisector.value[i] = distance - owner_distance_[i];
-    bisector.error = std::max(bisector.error, 8 * unit * (distance + owner_distance_[i]));
+    bisector.error = std::max(bisector.error, 8 * half_ulp * (distance + owner_distance_[i]));
     bisector.largest = std::max(bisector.largest, std::abs(bisector.value[i]));
   }
   if (bisector.value[0] > bisector.error && bisector.value[1] > bisector.error && bisector.value[2] > bisector.error)
-    return;  // the owner has the whole triangle from it
+    return false;  // the owner has the whole triangle from it
   const std::size_t count = polygon_.size();
   keep_.resize(count);
   bool keeps_all = true;
@@ -134,7 +107,7 @@ void TriangleCells::clip(std::uint32_t site) {
     keep_[i] = is_nearer_to_owner(polygon_[i], bisector) ? 1 : 0;
     keeps_all = keeps_all && keep_[i] != 0;
   }
-  if (keeps_all) return;
+  if (keeps_all) return false;
   bisectors_.push_back(bisector);
   const auto cut = static_cast<std::uint32_t>(2 + bisectors_.size());
   clipped_.clear();
@@ -150,6 +123,7 @@ void TriangleCells::clip(std::uint32_t site) {
     }
   }
   polygon_.swap(clipped_);
+  return true;
 }
 
 TriangleCells::Corner TriangleCells::make_corner(std::uint32_t before, std::uint32_t after) const {

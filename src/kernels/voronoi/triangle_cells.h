@@ -60,7 +60,7 @@ class TriangleCells {
   };
 
   void cut_piece(std::uint32_t owner);
-  void clip(std::uint32_t site);
+  bool clip(std::uint32_t site);
   Corner make_corner(std::uint32_t before, std::uint32_t after) const;
   bool is_nearer_to_owner(const Corner& corner, const Bisector& other) const;
   bool decide_exactly(const Corner& corner, const Bisector& other) const;

@@ -1,4 +1,4 @@
-#include "io/model_file/soup_of_model.h"
+#include "model/soup_of_model.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +30,18 @@ TEST(SoupOfModel, keeps_every_entity_of_a_coincident_surface_without_repeating_i
   EXPECT_EQ(soup.entities_of(0), model.surfaces[0].all_entities);
   model.surfaces[0].all_entities = {0};
   EXPECT_TRUE(soup_of_model(model).patch_other_entities.empty());
+}
+
+TEST(PatchesOfModel, are_the_soup_without_its_points_and_triangles) {
+  const StructuralModel model = support::two_tetrahedra();
+  const TriangleSoup soup = soup_of_model(model), patches = patches_of_model(model);
+  EXPECT_TRUE(patches.points.empty());
+  EXPECT_TRUE(patches.triangles.empty());
+  EXPECT_EQ(patches.local_origin, soup.local_origin);
+  EXPECT_EQ(patches.patch_entity, soup.patch_entity);
+  EXPECT_EQ(patches.patch_other_entities, soup.patch_other_entities);
+  EXPECT_EQ(patches.regions.size(), soup.regions.size());
+  EXPECT_EQ(patches.layers.size(), soup.layers.size());
 }
 
 }  // namespace

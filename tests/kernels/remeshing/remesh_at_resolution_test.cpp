@@ -31,8 +31,8 @@ TEST(RemeshAtResolution, gives_a_valid_sealed_model_whose_changes_are_told) {
   const StructuralModel model = model_of("A4");
   const Result<RemeshedAtResolution> result = remeshed(model, 1500, 20);
   ASSERT_TRUE(result) << result.failure().what;
-  EXPECT_TRUE(find_intersections(result->soup.points, result->soup.triangles).empty());
-  const BuiltModel built = *build_structural_model(result->soup);
+  EXPECT_TRUE(find_intersections(result->evened.soup.points, result->evened.soup.triangles).empty());
+  const BuiltModel built = *build_structural_model(result->evened.soup);
   EXPECT_TRUE(is_sealed(built.model, check_validity(built)));
   const bool is_as_before = built.model.corners.size() == model.corners.size() &&
                             built.model.lines.size() == model.lines.size() &&
@@ -46,7 +46,7 @@ TEST(RemeshAtResolution, of_a_simple_model_changes_nothing) {
   const Result<RemeshedAtResolution> result = remeshed(model, 1500, 1);
   ASSERT_TRUE(result) << result.failure().what;
   EXPECT_TRUE(result->changes.empty()) << result->changes.front().what;
-  EXPECT_EQ(build_structural_model(result->soup)->model.regions.size(), model.regions.size());
+  EXPECT_EQ(build_structural_model(result->evened.soup)->model.regions.size(), model.regions.size());
 }
 
 TEST(RemeshAtResolution, needs_sites_and_says_so_when_it_must_give_up) {
@@ -64,7 +64,7 @@ TEST(RemeshAtResolution, is_the_same_on_any_schedule) {
   const StructuralModel model = model_of("A2");
   const auto run = [&](ScheduleKind kind, std::uint64_t seed) {
     const ScheduleScope scope(kind, seed);
-    return remeshed(model, 1000, 15)->soup.points;
+    return remeshed(model, 1000, 15)->evened.soup.points;
   };
   const auto expected = run(ScheduleKind::serial, 0);
   EXPECT_EQ(run(ScheduleKind::threads, 0), expected);

@@ -47,7 +47,7 @@ const char* words_for(int status) {
     case LBFGS_ALREADY_MINIMIZED:
       return "gradient vanished";
     case LBFGS_STOP:
-      return "improvement below the limit";
+      return "cancelled";
     case LBFGSERR_MAXIMUMITERATION:
       return "iterations used up";
     default:
@@ -68,10 +68,6 @@ Minimized minimize(std::vector<double>& x, const Objective& objective, const Min
   parameter.m = static_cast<int>(options.memory);
   parameter.epsilon = options.gradient_ratio;
   parameter.max_iterations = static_cast<int>(options.iterations);
-  if (options.improvement_ratio > 0) {
-    parameter.past = 10;
-    parameter.delta = options.improvement_ratio;
-  }
   // Its own buffer: the library's vector instructions want memory it aligned itself.
   const int count = static_cast<int>(x.size());
   lbfgsfloatval_t* buffer = lbfgs_malloc(count);

@@ -12,7 +12,6 @@ struct MinimizeOptions {
   std::size_t iterations = 100;      ///< at most
   std::size_t memory = 7;            ///< pairs of steps and gradient changes kept
   double gradient_ratio = 1e-7;      ///< stop when |gradient| < ratio · max(1, |x|)
-  double improvement_ratio = 0;      ///< stop when ten iterations improved the value by less than this share; 0: never
   std::function<bool()> is_cancelled = {};  ///< asked after every step
 };
 

@@ -7,6 +7,7 @@
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/remeshing/guarded/triangle_corners.h"
 #include "kernels/topology/union_find.h"
+#include "model/soup_of_model.h"
 
 namespace strataflow {
 
@@ -601,10 +602,7 @@ std::vector<std::uint32_t> GuardedMesh::triangles_in_order() const {
 }
 
 TriangleSoup GuardedMesh::soup() const {
-  const StructuralModel& model = inputs_.model();
-  TriangleSoup soup;
-  soup.local_origin = model.local_origin;
-  soup.entities = model.entities;
+  TriangleSoup soup = patches_of_model(inputs_.model());
   std::vector<std::uint32_t> number(vertex_count(), no_index);
   for (std::uint32_t v = 0; v < vertex_count(); ++v)
     if (is_alive_vertex(v)) {
@@ -615,22 +613,6 @@ TriangleSoup GuardedMesh::soup() const {
     soup.triangles.push_back({number[triangles_[t][0]], number[triangles_[t][1]], number[triangles_[t][2]]});
     soup.triangle_patch.push_back(surface_of_[t]);
   }
-  for (const Surface& surface : model.surfaces) {
-    soup.patch_entity.push_back(surface.entity);
-    soup.patch_other_entities.push_back(surface.all_entities);
-    std::erase(soup.patch_other_entities.back(), surface.entity);
-  }
-  for (const Region& region : model.regions) {
-    RegionRecord record{region.name, {}};
-    const auto take = [&](std::uint32_t frontier) {
-      for (const SurfaceSide& side : model.frontiers[frontier].sides)
-        record.sides.push_back({side.surface, static_cast<std::uint8_t>(side.is_positive), {}});
-    };
-    take(region.external_frontier);
-    for (const std::uint32_t frontier : region.internal_frontiers) take(frontier);
-    soup.regions.push_back(record);
-  }
-  for (const Layer& layer : model.layers) soup.layers.push_back({layer.name, layer.regions});
   return soup;
 }
 

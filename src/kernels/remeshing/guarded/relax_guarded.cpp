@@ -80,6 +80,29 @@ Vec3 equilateral_place(const GuardedMesh& mesh, std::uint32_t v) {
   return count > 0 ? p + (1.0 / count) * sum : p;
 }
 
+/// Sweeps over the living triangles that changed since `since`, trying step(triangle, k) on each edge k until one is
+/// done; then over those that these sweeps changed, until none does or `sweeps` are over. The number of steps done.
+template <class Step>
+std::uint64_t sweep_edges(GuardedMesh& mesh, std::uint32_t since, int sweeps, Step&& step) {
+  std::uint64_t done = 0;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    std::uint64_t now = 0;
+    const std::uint32_t start = mesh.step_count();
+    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
+      for (std::size_t k = 0; k < 3; ++k)
+        if (step(t, k, since) == Verdict::done) {
+          ++now;
+          break;
+        }
+    }
+    done += now;
+    since = start + 1;
+    if (now == 0) break;
+  }
+  return done;
+}
+
 /// Steps of a half, at most three.
 template <class Try>
 bool with_shorter_steps(Try&& attempt) {
@@ -122,24 +145,10 @@ std::uint64_t collapse_short_edges(GuardedMesh& mesh) {
 }
 
 std::uint64_t flip_edges(GuardedMesh& mesh, std::uint32_t since) {
-  std::uint64_t done = 0;
   const ShapeDemand demand{.must_raise_worst = true};
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    std::uint64_t now = 0;
-    const std::uint32_t start = mesh.step_count();
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
-      for (std::size_t k = 0; k < 3; ++k)
-        if (mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand) == Verdict::done) {
-          ++now;
-          break;
-        }
-    }
-    done += now;
-    since = start + 1;
-    if (now == 0) break;
-  }
-  return done;
+  return sweep_edges(mesh, since, most_sweeps, [&](std::uint32_t t, std::size_t k, std::uint32_t) {
+    return mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand);
+  });
 }
 
 std::uint64_t even_valences(GuardedMesh& mesh, std::uint32_t since) {
@@ -160,40 +169,26 @@ std::uint64_t even_valences(GuardedMesh& mesh, std::uint32_t since) {
                         ? 6
                         : std::max(1, static_cast<int>(std::lround(angle * (3 / std::numbers::pi)))));
   };
-  std::uint64_t done = 0;
   const ShapeDemand demand{.floor = sine_20_deg};
-  for (int sweep = 0; sweep < 4; ++sweep) {
-    std::uint64_t now = 0;
-    const std::uint32_t start = mesh.step_count();
-    for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Triangle& c = mesh.triangle(t);
-        const std::uint32_t a = c[k], b = c[(k + 1) % 3], s = mesh.surface_of(t);
-        if (mesh.line_of_edge(a, b) != no_index) continue;
-        std::uint32_t other = no_index;
-        mesh.visit_star(a, [&](std::uint32_t u) {
-          if (u != t)
-            for (const std::uint32_t w : mesh.triangle(u))
-              if (w == b) other = u;
-        });
-        if (other == no_index || (other < t && mesh.changed_at(other) >= since)) continue;
-        std::uint32_t d = no_index;
-        for (const std::uint32_t w : mesh.triangle(other))
-          if (w != a && w != b) d = w;
-        const int ea = excess(a, s), eb = excess(b, s), ec = excess(c[(k + 2) % 3], s), ed = excess(d, s);
-        if (2 * (ec + ed - ea - eb) + 4 >= 0) continue;
-        if (mesh.flip_edge(a, b, demand) == Verdict::done) {
-          ++now;
-          break;
-        }
-      }
-    }
-    done += now;
-    since = start + 1;
-    if (now == 0) break;
-  }
-  return done;
+  return sweep_edges(mesh, since, 4, [&](std::uint32_t t, std::size_t k, std::uint32_t recent) {
+    const Triangle& c = mesh.triangle(t);
+    const std::uint32_t a = c[k], b = c[(k + 1) % 3], s = mesh.surface_of(t);
+    if (mesh.line_of_edge(a, b) != no_index) return Verdict::fixed;
+    std::uint32_t other = no_index;
+    mesh.visit_star(a, [&](std::uint32_t u) {
+      if (u != t)
+        for (const std::uint32_t w : mesh.triangle(u))
+          if (w == b) other = u;
+    });
+    // The triangle of the lower number speaks for the edge.
+    if (other == no_index || (other < t && mesh.changed_at(other) >= recent)) return Verdict::fixed;
+    std::uint32_t d = no_index;
+    for (const std::uint32_t w : mesh.triangle(other))
+      if (w != a && w != b) d = w;
+    const int ea = excess(a, s), eb = excess(b, s), ec = excess(c[(k + 2) % 3], s), ed = excess(d, s);
+    if (2 * (ec + ed - ea - eb) + 4 >= 0) return Verdict::fixed;
+    return mesh.flip_edge(a, b, demand);
+  });
 }
 
 std::uint64_t even_out(GuardedMesh& mesh, std::uint32_t since) {

@@ -1,15 +1,11 @@
-#include "io/model_file/soup_of_model.h"
+#include "model/soup_of_model.h"
 
 namespace strataflow {
 
-TriangleSoup soup_of_model(const StructuralModel& model) {
+TriangleSoup patches_of_model(const StructuralModel& model) {
   TriangleSoup soup;
   soup.local_origin = model.local_origin;
-  soup.points = model.points;
-  soup.triangles = model.triangles;
-  soup.triangle_patch = model.triangle_surface;
   soup.entities = model.entities;
-  soup.properties = model.properties;
   for (std::size_t s = 0; s < model.surfaces.size(); ++s) {
     const Surface& surface = model.surfaces[s];
     soup.patch_entity.push_back(surface.entity);
@@ -25,6 +21,15 @@ TriangleSoup soup_of_model(const StructuralModel& model) {
       soup.regions[frontier.region].sides.push_back({side.surface, static_cast<std::uint8_t>(side.is_positive)});
   }
   for (const Layer& layer : model.layers) soup.layers.push_back({layer.name, layer.regions});
+  return soup;
+}
+
+TriangleSoup soup_of_model(const StructuralModel& model) {
+  TriangleSoup soup = patches_of_model(model);
+  soup.points = model.points;
+  soup.triangles = model.triangles;
+  soup.triangle_patch = model.triangle_surface;
+  soup.properties = model.properties;
   return soup;
 }
 
