@@ -61,7 +61,7 @@ struct CutConstrainedOptions {
 /// for a contact that names nothing.
 struct CutConstrained {
   static constexpr std::string_view name = "cut_constrained";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   CutConstrainedOptions options;
 
   Result<CutResult> operator()(const InputData& input, const SealingNeed& need, StageContext& context) const;

@@ -63,7 +63,7 @@ struct SealStageOptions {
 /// that came to lie on each other, juts, slivers (find_doubts).
 struct Seal {
   static constexpr std::string_view name = "seal";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   SealStageOptions options;
 
   Result<CutResult> operator()(const CutResult& cut, const SealingNeed& need, StageContext& context) const;

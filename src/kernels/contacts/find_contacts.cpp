@@ -33,16 +33,20 @@ struct Nearness {
 /// Everything near the edges of borders.
 class Surroundings {
  public:
-  explicit Surroundings(const TriangleSoup& soup) : soup_(soup) {
-    std::vector<FloatBox> boxes(soup.triangles.size());
-    parallel_ranges(boxes.size(), 4096, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t t = begin; t < end; ++t) {
-        Box3 box;
-        for (const std::uint32_t p : soup.triangles[t]) box.take(soup.points[p]);
-        boxes[t] = enclosing(box);
-      }
-    });
-    tree_ = BoundingVolumeTree(boxes);
+  explicit Surroundings(const TriangleSoup& soup) : soup_(soup), sheets_(soup.entities.size()) {
+    for (std::uint32_t t = 0; t < soup.triangles.size(); ++t)
+      sheets_[soup.patch_entity[soup.triangle_patch[t]]].triangles.push_back(t);
+    for (Sheet& sheet : sheets_) {
+      std::vector<FloatBox> boxes(sheet.triangles.size());
+      parallel_ranges(boxes.size(), 4096, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          Box3 box;
+          for (const std::uint32_t p : soup.triangles[sheet.triangles[i]]) box.take(soup.points[p]);
+          boxes[i] = enclosing(box);
+        }
+      });
+      sheet.tree = BoundingVolumeTree(boxes);
+    }
   }
 
   /// Entities within the distance of both ends and the middle of edge `i`, ascending; only `wanted`, if any.
@@ -53,31 +57,14 @@ class Surroundings {
     const std::array<Vec3, 3> samples{a, 0.5 * (a + b), b};
     const Vec3 out = outward(border, i);
     std::vector<Nearness> result;
-    for (int s = 0; s < 3; ++s) {
-      std::map<std::uint32_t, Impact> nearest;
-      const Vec3 reach{distance_m, distance_m, distance_m};
-      Box3 box;
-      box.take(samples[s] - reach);
-      box.take(samples[s] + reach);
-      tree_.visit_items(enclosing(box), [&](std::uint32_t t) {
-        const std::uint32_t entity = soup_.patch_entity[soup_.triangle_patch[t]];
-        if (entity == border.entity || (wanted != no_index && entity != wanted)) return;
-        const Triangle& tri = soup_.triangles[t];
-        const Vec3 q =
-            nearest_on_triangle(samples[s], soup_.points[tri[0]], soup_.points[tri[1]], soup_.points[tri[2]]);
-        const double d = length(q - samples[s]);
-        if (!(d <= distance_m)) return;
-        const auto [place, is_new] = nearest.try_emplace(entity, Impact{t, q, d});
-        Impact& best = place->second;
-        if (!is_new && (d < best.distance_m || (d == best.distance_m && t < best.triangle))) best = {t, q, d};
-      });
-      if (s == 0)
-        for (const auto& [entity, impact] : nearest) result.push_back({entity, 0, 0, 0, {}});
-      std::erase_if(result, [&](const Nearness& n) { return nearest.find(n.entity) == nearest.end(); });
-      for (Nearness& n : result) {
-        const Impact& impact = nearest.at(n.entity);
+    for (std::uint32_t entity = 0; entity < sheets_.size(); ++entity) {
+      if (entity == border.entity || (wanted != no_index && entity != wanted)) continue;
+      Nearness n{entity, 0, 0, 0, {}};
+      for (int s = 0; s < 3; ++s) {
+        const Impact impact = nearest(sheets_[entity], samples[s], distance_m);
         n.distance_m[s] = impact.distance_m;
         n.max_m = std::max(n.max_m, impact.distance_m);
+        if (!(impact.distance_m <= distance_m)) break;
         if (s != 1) continue;
         n.ahead_m = dot(out, impact.point - samples[s]);
         const Triangle& tri = soup_.triangles[impact.triangle];
@@ -86,11 +73,34 @@ class Surroundings {
         const double size = length(normal);
         n.facing = size > 0 ? std::abs(dot(out, normal)) / size : 0;
       }
+      if (n.max_m <= distance_m) result.push_back(n);
     }
     return result;
   }
 
  private:
+  /// The triangles of one entity.
+  struct Sheet {
+    std::vector<std::uint32_t> triangles;
+    BoundingVolumeTree tree;
+  };
+
+  /// The nearest place, of equal ones that of the lowest triangle; infinitely far if none is within the limit.
+  Impact nearest(const Sheet& sheet, const Vec3& p, double limit_m) const {
+    Impact best{no_index, {}, infinite};
+    const double margin = 1 + 1e-12;  // a rounded distance must not hide an equal one
+    double limit_m2 = margin * limit_m * limit_m;
+    sheet.tree.visit_nearest(p, limit_m2, [&](std::uint32_t place) {
+      const std::uint32_t t = sheet.triangles[sheet.tree.item_at(place)];
+      const Triangle& tri = soup_.triangles[t];
+      const Vec3 q = nearest_on_triangle(p, soup_.points[tri[0]], soup_.points[tri[1]], soup_.points[tri[2]]);
+      const double d = length(q - p);
+      if (d < best.distance_m || (d == best.distance_m && t < best.triangle)) best = {t, q, d};
+      return limit_m2 = std::min(limit_m2, margin * best.distance_m * best.distance_m);
+    });
+    return best;
+  }
+
   Vec3 outward(const Border& border, std::size_t i) const {
     const Vec3 &a = soup_.points[border.points[i]], &b = soup_.points[border.points[(i + 1) % border.points.size()]];
     const Triangle& t = soup_.triangles[border.triangles[i]];
@@ -102,7 +112,7 @@ class Surroundings {
   }
 
   const TriangleSoup& soup_;
-  BoundingVolumeTree tree_;
+  std::vector<Sheet> sheets_;  ///< per entity
 };
 
 const Nearness* find(const std::vector<Nearness>& near, std::uint32_t entity) {
@@ -231,6 +241,29 @@ std::vector<std::uint32_t> choose_controllers(const TriangleSoup& soup, const Co
   return choice;
 }
 
+/// Contacts of a border whose edges belong to the controllers `choice`.
+void add_chosen(const TriangleSoup& soup, const ContactMesh& mesh, const Border& border,
+                const std::vector<std::vector<Nearness>>& near, const std::vector<std::uint32_t>& choice,
+                FoundContacts& found) {
+  const std::size_t count = border.edge_count();
+  std::size_t start = 0;
+  if (border.is_closed) {
+    const auto continues = [&](std::size_t i) {
+      const std::size_t before = (i + count - 1) % count;
+      return choice[i] == choice[before] &&
+             conforms(mesh, border, i, choice[i]) == conforms(mesh, border, before, choice[before]);
+    };
+    while (start < count && continues(start)) ++start;
+    start %= count;
+  }
+  for (std::size_t first = start; first < start + count;) {
+    std::size_t end = first + 1;
+    while (end < start + count && choice[end % count] == choice[first % count]) ++end;
+    add_runs(soup, mesh, border, near, first, end, choice[first % count], found);
+    first = end;
+  }
+}
+
 /// Whether it was attached, or needs not be.
 bool attach_border(const TriangleSoup& soup, const ContactMesh& mesh, const Border& border,
                    const std::vector<std::vector<Nearness>>& near, const FindContactsOptions& options, double facing,
@@ -250,22 +283,7 @@ bool attach_border(const TriangleSoup& soup, const ContactMesh& mesh, const Bord
     if (whole == no_index) return false;
     choice.assign(count, whole);
   }
-  std::size_t start = 0;
-  if (border.is_closed) {
-    const auto continues = [&](std::size_t i) {
-      const std::size_t before = (i + count - 1) % count;
-      return choice[i] == choice[before] &&
-             conforms(mesh, border, i, choice[i]) == conforms(mesh, border, before, choice[before]);
-    };
-    while (start < count && continues(start)) ++start;
-    start %= count;
-  }
-  for (std::size_t first = start; first < start + count;) {
-    std::size_t end = first + 1;
-    while (end < start + count && choice[end % count] == choice[first % count]) ++end;
-    add_runs(soup, mesh, border, near, first, end, choice[first % count], found);
-    first = end;
-  }
+  add_chosen(soup, mesh, border, near, choice, found);
   return true;
 }
 
@@ -328,6 +346,46 @@ std::optional<NamedContact> parse_contact(std::string_view text) {
   return named;
 }
 
+/// "H2 -> F3 within 25", for all borders of H2.
+struct NamedReach {
+  const std::string* text = nullptr;
+  std::uint32_t controlled = 0, controller = 0;
+  double within_m = 0;
+  bool is_met = false;  ///< a border, or a part of one, was found for it
+};
+
+/// Borders that no single name fits, divided among the controllers named for their entity: one may pass from a fault to
+/// the next without a stone. `is_taken` is per border.
+void divide_named(const TriangleSoup& soup, const std::vector<Border>& borders, const Surroundings& surroundings,
+                  const std::vector<bool>& is_taken, double facing, std::vector<NamedReach>& reaches,
+                  FoundContacts& found) {
+  const ContactMesh mesh(soup);
+  for (std::size_t b = 0; b < borders.size(); ++b) {
+    const Border& border = borders[b];
+    std::vector<std::vector<Nearness>> near(border.edge_count());
+    double distance_m = 0;
+    int controllers = 0;
+    for (const NamedReach& reach : reaches) {
+      if (is_taken[b] || reach.controlled != border.entity) continue;
+      ++controllers;
+      distance_m = std::max(distance_m, reach.within_m);
+      const auto own = parallel_map(near.size(), [&](std::size_t e) {
+        return surroundings.near(border, e, reach.within_m, 0, reach.controller);
+      });
+      for (std::size_t e = 0; e < near.size(); ++e)
+        if (!own[e].empty() && !find(near[e], reach.controller)) near[e].push_back(own[e][0]);
+    }
+    if (controllers < 2 || is_taken[b]) continue;
+    const std::vector<std::uint32_t> choice = choose_controllers(soup, mesh, border, near, facing, distance_m);
+    if (choice.empty()) continue;
+    add_chosen(soup, mesh, border, near, choice, found);
+    for (NamedReach& reach : reaches)
+      if (reach.controlled == border.entity &&
+          std::find(choice.begin(), choice.end(), reach.controller) != choice.end())
+        reach.is_met = true;
+  }
+}
+
 }  // namespace
 
 FoundContacts find_contacts(const TriangleSoup& soup, const FindContactsOptions& options) {
@@ -379,8 +437,20 @@ Result<FoundContacts> name_contacts(const TriangleSoup& soup, const std::vector<
       if (soup.entities[e].name == name) return e;
     return no_index;
   };
+  std::vector<NamedReach> reaches;
+  std::vector<bool> is_taken(borders.size(), false);
+  const auto none_lies_there = [](const std::string& text, std::string_view controlled) {
+    return Failure{FailureCode::invalid_options,
+                   "contact \"" + text + "\": no border of " + std::string(controlled) + " lies there and faces it",
+                   "widen within, or name the border by its number"};
+  };
   // Stones last: they are ends of contacts.
-  for (const bool is_stone_turn : {false, true})
+  for (const bool is_stone_turn : {false, true}) {
+    if (is_stone_turn) {
+      divide_named(soup, borders, surroundings, is_taken, facing_of(options), reaches, found);
+      for (const NamedReach& reach : reaches)
+        if (!reach.is_met) return none_lies_there(*reach.text, soup.entities[reach.controlled].name);
+    }
     for (const std::string& text : texts) {
       const auto fail = [&](const std::string& why, const std::string& remedy) {
         return Failure{FailureCode::invalid_options, "contact \"" + text + "\": " + why, remedy};
@@ -440,6 +510,7 @@ Result<FoundContacts> name_contacts(const TriangleSoup& soup, const std::vector<
         if (!lies_near_all(near, controller, named->border ? 0 : facing_of(options), max_m)) continue;
         if (named->within_m) {
           add_contact(soup, *border, near, 0, border->edge_count(), controller, found);
+          is_taken[static_cast<std::size_t>(border - borders.data())] = true;
           is_any = true;
         } else if (max_m < nearest_m) {
           nearest_m = max_m;
@@ -448,10 +519,12 @@ Result<FoundContacts> name_contacts(const TriangleSoup& soup, const std::vector<
         }
       }
       if (nearest) add_contact(soup, *nearest, nearest_edges, 0, nearest->edge_count(), controller, found);
-      if (!nearest && !is_any)
-        return fail("no border of " + std::string(named->controlled) + " lies there and faces it",
-                    "widen within, or name the border by its number");
+      if (named->within_m && !named->border)
+        reaches.push_back({&text, controlled, controller, *named->within_m, is_any});
+      else if (!nearest && !is_any)
+        return none_lies_there(text, named->controlled);
     }
+  }
   return found;
 }
 

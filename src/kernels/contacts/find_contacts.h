@@ -38,7 +38,8 @@ FoundContacts find_contacts(const TriangleSoup& soup, const FindContactsOptions&
 /// Contacts by name. Each text is one of
 ///   "H2 -> F3"              the border of H2 that is nearest to F3 (all of it: the distance of a border is that of its
 ///                           furthest point) among those that face it
-///   "H2 -> F3 within 25"    every border of H2 that lies within 25 m of F3
+///   "H2 -> F3 within 25"    every border of H2 that lies within 25 m of F3; several such texts of H2 share a border
+///                           that passes from one of their surfaces to the next
 ///   "H2.border 4 -> F3"     border 4 of H2, counting from 1 in the order of find_borders
 ///   "H2.stone -> F3.border" the end of every named slit or border of H2 that is nearest to the free border of F3
 ///                           (with `within`: all ends within it)

@@ -97,6 +97,21 @@ TEST(NameContacts, picks_the_nearest_border_all_within_a_distance_or_one_by_numb
   EXPECT_NEAR(nearest->gaps[0].max_gap_m, 0.25, 1e-12);
 }
 
+TEST(NameContacts, a_border_without_a_corner_is_divided_among_the_controllers_named_for_it) {
+  TriangleSoup soup;
+  add_grid(soup, add_patch(soup, "H", Role::horizon), 4, 8, [](double u, double v) { return Vec3{9.8 * u, 10 * v, 5}; });
+  for (const double first : {0.0, 5.0})  // a fault that another one goes on from
+    add_grid(soup, add_patch(soup, first == 0 ? "F1" : "F2", Role::fault), 4, 4,
+             [&](double u, double v) { return Vec3{10, first + 5 * u, 10 * v}; });
+  const Result<FoundContacts> found = name_contacts(soup, {"H -> F1 within 0.3", "H -> F2 within 0.3"}, {});
+  ASSERT_TRUE(found) << describe(found.failure());
+  ASSERT_EQ(found->constraints.borders.size(), 2u);
+  EXPECT_EQ(found->constraints.borders[0].points.size(), 5u);
+  EXPECT_EQ(found->constraints.borders[1].points.size(), 5u);
+  EXPECT_NE(found->constraints.borders[0].controller, found->constraints.borders[1].controller);
+  EXPECT_FALSE(name_contacts(soup, {"H -> F1 within 0.3"}, {}));
+}
+
 TEST(NameContacts, named_contacts_come_before_found_ones_of_the_same_border) {
   const TriangleSoup raw = raw_box(0.25, 3);
   const FoundContacts named = *name_contacts(raw, {"H1 -> F1 within 0.3"}, FindContactsOptions{});
