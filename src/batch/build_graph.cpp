@@ -66,6 +66,43 @@ Port<InputData> wire_surfaces(JobWirer& wirer, const Job& job, Port<InputData> s
   return wirer.add("simplify_borders", SimplifyBorders{job.simplify}, sealed);
 }
 
+/// Whether a job makes anything but quads, which stand on curves.
+bool needs_model(const Job& job) {
+  return std::any_of(job.output.products.begin(), job.output.products.end(),
+                     [](const std::string& product) { return product != "quads"; });
+}
+
+/// The checked model, the surfaces remeshed if anything stands on them, and the pictures of both.
+void wire_model(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
+  const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
+  const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" && job.makes("tets"));
+  const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") || remeshes;
+  wired.model = model;
+  const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
+  wired.validity = validity;
+  const bool takes_cells = remeshes && job.remesh.uses_cells();
+  if (job.makes("voronoi") || takes_cells)
+    wired.sites = wirer.add("optimise_sites", OptimiseSites{job.remesh.sites}, model);
+  if (job.makes("voronoi")) wired.diagram = wirer.add("restricted_voronoi", RestrictVoronoi{}, model, *wired.sites);
+  if (!remeshes) return;
+  wired.remeshed = takes_cells ? wirer.add("remesh_by_cells", RemeshByCells{job.remesh}, model, validity, *wired.sites)
+                               : wirer.add("remesh", Remesh{job.remesh}, model, validity);
+  wired.surfaces = wirer.add("build_surfaces", BuildSurfaces{}, *wired.remeshed);
+  wired.surfaces_validity = wirer.add("check_surfaces", CheckValidity{{true}}, *wired.surfaces);
+  wired.surfaces_report =
+      wirer.add("compare_surfaces", CompareSurfaces{{job.remesh.preserve == "all"}}, model, *wired.surfaces);
+  wired.surfaces_pictures = wirer.add("draw_surfaces", DrawModel{}, *wired.surfaces);
+}
+
+void wire_tets(JobWirer& wirer, const Job& job, WiredJob& wired) {
+  const bool is_on_surfaces = job.output.from == "surfaces";
+  const Port<BuiltModel> hull = is_on_surfaces ? *wired.surfaces : *wired.model;
+  wired.tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, hull,
+                         is_on_surfaces ? *wired.surfaces_validity : *wired.validity);
+  wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, hull, *wired.tets);
+  wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, *wired.tets);
+}
+
 WiredJob wire_job(StageGraph& graph, const Job& job) {
   WiredJob wired;
   JobWirer wirer(graph, wired);
@@ -74,39 +111,13 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   std::vector<Port<InputData>> inputs;
   for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
   const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
-  const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
-  const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" && job.makes("tets"));
-  const bool must_be_sealed =
-      (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") || remeshes;
-  wired.model = model;
-  const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
-  wired.validity = validity;
-  const bool takes_cells = remeshes && job.remesh.uses_cells();
-  if (job.makes("voronoi") || takes_cells)
-    wired.sites = wirer.add("optimise_sites", OptimiseSites{job.remesh.sites}, model);
-  if (job.makes("voronoi")) wired.diagram = wirer.add("restricted_voronoi", RestrictVoronoi{}, model, *wired.sites);
-  if (remeshes) {
-    wired.remeshed = takes_cells
-                         ? wirer.add("remesh_by_cells", RemeshByCells{job.remesh}, model, validity, *wired.sites)
-                         : wirer.add("remesh", Remesh{job.remesh}, model, validity);
-    wired.surfaces = wirer.add("build_surfaces", BuildSurfaces{}, *wired.remeshed);
-    wired.surfaces_validity = wirer.add("check_surfaces", CheckValidity{{true}}, *wired.surfaces);
-    wired.surfaces_report =
-        wirer.add("compare_surfaces", CompareSurfaces{{job.remesh.preserve == "all"}}, model, *wired.surfaces);
-    wired.surfaces_pictures = wirer.add("draw_surfaces", DrawModel{}, *wired.surfaces);
-  }
-  if (job.makes("tets")) {
-    const bool is_on_surfaces = job.output.from == "surfaces";
-    const Port<BuiltModel> hull = is_on_surfaces ? *wired.surfaces : model;
-    const Port<VolumeMesh> tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, hull,
-                                            is_on_surfaces ? *wired.surfaces_validity : validity);
-    wired.tets = tets;
-    wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, hull, tets);
-    wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, tets);
-  }
-  if (job.makes("complexity")) wired.complexity = wirer.add("complexity", MeasureComplexity{job.complexity}, model);
+  if (!needs_model(job)) return wired;
+  wire_model(wirer, job, input, wired);
+  if (job.makes("tets")) wire_tets(wirer, job, wired);
+  if (job.makes("complexity"))
+    wired.complexity = wirer.add("complexity", MeasureComplexity{job.complexity}, *wired.model);
   // Last: pictures wait for idle threads rather than the other way round.
-  wired.model_pictures = wirer.add("draw_model", DrawModel{}, model);
+  wired.model_pictures = wirer.add("draw_model", DrawModel{}, *wired.model);
   return wired;
 }
 

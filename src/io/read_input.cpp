@@ -10,17 +10,20 @@
 #include "io/bytes/tar_members.h"
 #include "io/gocad/read_gocad.h"
 #include "io/input/combine_inputs.h"
+#include "io/lines/read_fault_map.h"
+#include "io/lines/read_geo.h"
+#include "io/lines/read_pol.h"
 #include "io/mesh/read_gmsh.h"
 #include "io/mesh/read_medit.h"
 #include "io/mesh/read_ucd.h"
 #include "io/model_file/read_model_file.h"
-#include "model/soup_of_model.h"
 #include "io/surface/read_obj.h"
 #include "io/surface/read_off.h"
 #include "io/surface/read_ply.h"
 #include "io/surface/read_stl.h"
 #include "io/vtk/read_vtk_legacy.h"
 #include "io/vtk/read_vtk_xml.h"
+#include "model/soup_of_model.h"
 
 namespace strataflow {
 
@@ -46,6 +49,8 @@ constexpr std::array formats{
     InputFormat{"mesh", "MEDIT mesh", read_medit},
     InputFormat{"msh", "Gmsh 2.2 or 4.1", read_gmsh},
     InputFormat{"inp", "AVS UCD", read_ucd},
+    InputFormat{"pol", "lines, 999 between them", read_pol},
+    InputFormat{"geo", "Gmsh section", read_geo},
 };
 
 std::string lower_case(std::string text) {
@@ -67,6 +72,12 @@ std::string ending_of(std::string name) {
 bool starts_like_gocad(std::string_view bytes) {
   const std::size_t first = bytes.find_first_not_of(" \t\r\n");
   return first != std::string_view::npos && bytes.substr(first, 6) == "GOCAD ";
+}
+
+/// Many files end in .txt: only `B n` or `F n` on the first line makes it a fault map.
+bool is_fault_map(std::string_view bytes, const std::string& ending) {
+  return ending == "txt" && bytes.size() > 2 && (bytes[0] == 'B' || bytes[0] == 'F') && bytes[1] == ' ' &&
+         bytes[2] >= '0' && bytes[2] <= '9';
 }
 
 const InputFormat* format_of(const std::string& ending) {
@@ -94,7 +105,7 @@ Result<InputData> read_archive(std::string_view bytes, const std::string& file_n
   std::vector<Warning> skipped;
   for (const TarMember& member : *members) {
     const std::string name = file_name + "/" + member.name;
-    if (!format_of(ending_of(member.name))) {
+    if (!format_of(ending_of(member.name)) && !is_fault_map(member.content, ending_of(member.name))) {
       skipped.push_back({"skipped_member", name + ": is not of a format that is read"});
       continue;
     }
@@ -136,6 +147,7 @@ Result<InputData> read_input_bytes(std::string_view bytes, const std::string& fi
   const std::string ending = ending_of(file_name);
   if (ending == "tar" || ending == "tgz") return read_archive(bytes, file_name);
   if (starts_like_gocad(bytes)) return read_gocad(bytes, file_name);
+  if (is_fault_map(bytes, ending)) return read_fault_map(bytes, file_name);
   const InputFormat* format = format_of(ending);
   if (!format) return unknown_ending(file_name, ending);
   return format->read(bytes, file_name);

@@ -150,19 +150,24 @@ void write_points(VtkXmlFile& file, std::span<const Vec3> points, const Vec3& lo
   file.close("Points");
 }
 
-std::string polys_piece(std::size_t point_count, std::size_t polygon_count) {
-  return "Piece NumberOfPoints=\"" + std::to_string(point_count) +
-         "\" NumberOfVerts=\"0\" NumberOfLines=\"0\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
+std::string polys_piece(std::size_t point_count, std::size_t polygon_count, std::size_t line_count = 0) {
+  return "Piece NumberOfPoints=\"" + std::to_string(point_count) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
+         std::to_string(line_count) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
          std::to_string(polygon_count) + "\"";
 }
 
 std::int32_t signed_index(std::uint32_t index) { return index == no_index ? -1 : static_cast<std::int32_t>(index); }
-void write_polys(VtkXmlFile& file, const std::vector<std::int64_t>& connectivity,
+void write_cells(VtkXmlFile& file, const std::string& tag, const std::vector<std::int64_t>& connectivity,
                  const std::vector<std::int64_t>& offsets) {
-  file.open("Polys");
+  file.open(tag);
   file.array("connectivity", connectivity);
   file.array("offsets", offsets);
-  file.close("Polys");
+  file.close(tag);
+}
+
+void write_polys(VtkXmlFile& file, const std::vector<std::int64_t>& connectivity,
+                 const std::vector<std::int64_t>& offsets) {
+  write_cells(file, "Polys", connectivity, offsets);
 }
 
 }  // namespace
@@ -226,6 +231,40 @@ std::string write_voronoi_vtp(const LabelledTriangles& surfaces, const Restricte
   file.close("CellData");
   write_points(file, points, surfaces.local_origin);
   write_polys(file, point_of, offsets);
+  file.close("Piece");
+  return std::move(file).finish();
+}
+
+std::string write_quads_vtp(const QuadMesh& mesh) {
+  std::vector<std::string> names, roles;
+  for (const Feature& feature : mesh.features) {
+    names.push_back(feature.name);
+    roles.emplace_back(to_string(feature.role));
+  }
+  std::vector<std::int32_t> feature;
+  std::vector<std::int64_t> line_points, line_offsets, quad_points, quad_offsets;
+  for (const FeatureEdge& edge : mesh.edges) {
+    feature.push_back(signed_index(edge.feature));
+    line_points.insert(line_points.end(), {edge.a, edge.b});
+    line_offsets.push_back(static_cast<std::int64_t>(line_points.size()));
+  }
+  for (const auto& quad : mesh.quads) {
+    feature.push_back(-1);
+    quad_points.insert(quad_points.end(), quad.begin(), quad.end());
+    quad_offsets.push_back(static_cast<std::int64_t>(quad_points.size()));
+  }
+  VtkXmlFile file("PolyData");
+  file.open("FieldData");
+  file.string_field("feature_names", names);
+  file.string_field("feature_roles", roles);
+  file.close("FieldData");
+  file.open(polys_piece(mesh.points.size(), mesh.quads.size(), mesh.edges.size()));
+  file.open("CellData");
+  file.array("feature", feature);
+  file.close("CellData");
+  write_points(file, mesh.points, mesh.local_origin);
+  write_cells(file, "Lines", line_points, line_offsets);
+  write_polys(file, quad_points, quad_offsets);
   file.close("Piece");
   return std::move(file).finish();
 }

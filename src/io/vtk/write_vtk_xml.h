@@ -4,6 +4,7 @@
 
 #include "io/input/labelled_triangles.h"
 #include "model/cell_field.h"
+#include "model/quad_mesh.h"
 #include "model/restricted_diagram.h"
 #include "model/volume_mesh.h"
 
@@ -31,5 +32,9 @@ std::string write_vtu(const VolumeMesh& mesh, std::span<const CellField> fields)
 /// The facets of a mesh, with cell arrays `surface`, `entity`, `cell_0`, `cell_1` (-1: outside). Points are numbered as
 /// in `write_vtu`. Field data as in `write_vtp`.
 std::string write_facets_vtp(const VolumeMesh& mesh);
+
+/// Quads as polygons, and before them one line per quad edge on a feature; cell array `feature` (-1: a quad). Field data
+/// `feature_names`, `feature_roles` (strings).
+std::string write_quads_vtp(const QuadMesh& mesh);
 
 }  // namespace strataflow

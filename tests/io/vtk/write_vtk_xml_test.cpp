@@ -46,6 +46,22 @@ TEST(WriteVtkXml, facets_are_polygons_with_the_points_of_the_mesh) {
     EXPECT_NE(bytes.find(name), std::string::npos) << name;
 }
 
+TEST(WriteVtkXml, quads_come_with_a_line_for_every_edge_on_a_feature) {
+  QuadMesh mesh;
+  mesh.local_origin = {100, 0, 0};
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}};
+  mesh.quads = {{0, 1, 4, 3}, {1, 2, 5, 4}};
+  mesh.features = {{.name = "F1", .role = Role::fault}};
+  mesh.edges = {{1, 4, 0}};
+  const std::string bytes = write_quads_vtp(mesh);
+  const InputData again = read_whole(read_vtk_xml, bytes, "a.vtp");
+  EXPECT_EQ(again.surfaces.triangles.size(), 4u);
+  ASSERT_EQ(again.lines.size(), 1u);
+  EXPECT_EQ(again.lines[0].points, (std::vector<Vec3>{{101, 0, 0}, {101, 1, 0}}));
+  for (const char* name : {"\"feature\"", "\"feature_names\"", "\"feature_roles\""})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+}
+
 TEST(WriteVtkXml, the_same_content_gives_the_same_bytes) {
   EXPECT_EQ(write_vtu(two_region_mesh()), write_vtu(two_region_mesh()));
   const TriangleSoup soup = two_surface_soup();
