@@ -66,7 +66,7 @@ void add_quality(CLI::App& app, QualityArguments& arguments) {
   CLI::App* command = app.add_subcommand("quality", "Measure meshes and check that they are valid");
   command->add_option("MESH", arguments.files, "Mesh files")->required();
   command->add_flag("--json", arguments.json, "As JSON");
-  command->add_flag("--patch-test", arguments.patch_test, "Solve a patch test on the cells (not in this version)");
+  command->add_flag("--patch-test", arguments.patch_test, "Also solve for linear fields on valid cells: they must come out exactly");
 }
 
 void add_diff(CLI::App& app, DiffArguments& arguments) {

@@ -12,6 +12,7 @@
 #include "stages/generate_stage.h"
 #include "stages/judge_surfaces_stage.h"
 #include "stages/optimise_sites_stage.h"
+#include "stages/plan_problem_stage.h"
 #include "stages/read_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
@@ -51,7 +52,7 @@ Port<InputData> wire_input(JobWirer& wirer, const Job& job, const JobInput& inpu
   if (input.model)
     return wirer.add("generate/" + *input.model, Generate{{*input.model, input.resolution_m, input.raw_ratio}});
   const std::filesystem::path path = job.input_path(input);
-  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role}, path});
+  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role, input.sticks}, path});
 }
 
 /// From surfaces as they were read to surfaces that conform.
@@ -76,7 +77,8 @@ bool needs_model(const Job& job) {
 void wire_model(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
   const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
   const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" && job.makes("tets"));
-  const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") || remeshes;
+  const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") ||
+                              job.makes("hybrid") || remeshes;
   wired.model = model;
   const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
   wired.validity = validity;
@@ -103,6 +105,34 @@ void wire_tets(JobWirer& wirer, const Job& job, WiredJob& wired) {
   wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, *wired.tets);
 }
 
+void wire_hybrid(JobWirer& wirer, const Job& job, WiredJob& wired) {
+  wired.hybrid_remeshed = wirer.add("remesh_hybrid", RemeshHybrid{job.hybrid}, *wired.model, *wired.validity);
+  wired.hybrid_surfaces = wirer.add("build_hybrid_surfaces", BuildSurfaces{}, *wired.hybrid_remeshed);
+  const auto validity = wirer.add("check_hybrid_surfaces", CheckValidity{{true}}, *wired.hybrid_surfaces);
+  wired.hybrid_surfaces_report =
+      wirer.add("compare_hybrid_surfaces", CompareSurfaces{{job.hybrid.preserve == "all"}}, *wired.model, *wired.hybrid_surfaces);
+  wired.hybrid = wirer.add("hybrid", FillHybrid{job.hybrid}, *wired.hybrid_surfaces, validity);
+  const auto cells = wirer.add("hybrid_cells", TakeHybridCells{}, *wired.hybrid);
+  wired.hybrid_quality = wirer.add("check_hybrid", CheckMesh{}, *wired.hybrid_surfaces, cells);
+  wired.hybrid_pictures = wirer.add("draw_hybrid", DrawMesh{}, cells);
+}
+
+void wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<InputData> input, WiredJob& wired) {
+  const Port<FeatureMesh> problem = wirer.add("plan_problem", PlanProblem{quad.problem}, input);
+  const auto field = wirer.add("frame_field", ComputeFrameField{{quad.field, quad.fallback}}, problem);
+  const auto seamless = wirer.add("seamless_map", SeamlessMap{{quad.field, quad.fallback}}, problem, field);
+  QuantizeStageOptions integers = quad.integers;
+  ExtractQuadsOptions extraction = quad.quads;
+  integers.fallback = extraction.fallback = quad.fallback;
+  const auto grid = wirer.add("quantize", Quantize{integers}, problem, seamless);
+  const auto quads = wirer.add("extract_quads", ExtractQuads{extraction}, problem, grid);
+  wired.plan_problem = problem;
+  wired.seamless_map = seamless;
+  wired.grid = grid;
+  wired.quads = quads;
+  wired.quads_pictures = wirer.add("draw_quads", DrawQuads{}, problem, seamless, grid, quads);
+}
+
 WiredJob wire_job(StageGraph& graph, const Job& job) {
   WiredJob wired;
   JobWirer wirer(graph, wired);
@@ -111,9 +141,11 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   std::vector<Port<InputData>> inputs;
   for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
   const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
+  if (job.makes("quads")) wire_quads(wirer, job.quad, input, wired);
   if (!needs_model(job)) return wired;
   wire_model(wirer, job, input, wired);
   if (job.makes("tets")) wire_tets(wirer, job, wired);
+  if (job.makes("hybrid")) wire_hybrid(wirer, job, wired);
   if (job.makes("complexity"))
     wired.complexity = wirer.add("complexity", MeasureComplexity{job.complexity}, *wired.model);
   // Last: pictures wait for idle threads rather than the other way round.
@@ -140,6 +172,17 @@ std::vector<NodeId> WiredJob::wanted() const {
   take(surfaces_report);
   take(surfaces_pictures);
   take(complexity);
+  take(hybrid_remeshed);
+  take(hybrid_surfaces);
+  take(hybrid_surfaces_report);
+  take(hybrid);
+  take(hybrid_quality);
+  take(hybrid_pictures);
+  take(plan_problem);
+  take(seamless_map);
+  take(grid);
+  take(quads);
+  take(quads_pictures);
   take(tets);
   take(tets_quality);
   take(tets_pictures);

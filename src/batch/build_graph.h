@@ -14,6 +14,7 @@
 #include "model/site_set.h"
 #include "model/volume_mesh.h"
 #include "stages/draw_stage.h"
+#include "stages/hybrid_stage.h"
 #include "stages/remesh_stage.h"
 
 namespace strataflow {
@@ -35,6 +36,17 @@ struct WiredJob {
   std::optional<Port<SurfacesReport>> surfaces_report;
   std::optional<Port<Pictures>> surfaces_pictures;
   std::optional<Port<ComplexityReport>> complexity;
+  std::optional<Port<RemeshedSurfaces>> hybrid_remeshed;
+  std::optional<Port<BuiltModel>> hybrid_surfaces;
+  std::optional<Port<SurfacesReport>> hybrid_surfaces_report;
+  std::optional<Port<HybridMesh>> hybrid;
+  std::optional<Port<VolumeQualityReport>> hybrid_quality;
+  std::optional<Port<Pictures>> hybrid_pictures;
+  std::optional<Port<FeatureMesh>> plan_problem;
+  std::optional<Port<Attempt<FieldAndMap>>> seamless_map;
+  std::optional<Port<Attempt<GridMapping>>> grid;
+  std::optional<Port<MeshedQuads>> quads;
+  std::optional<Port<Pictures>> quads_pictures;
   std::optional<Port<VolumeMesh>> tets;
   std::optional<Port<VolumeQualityReport>> tets_quality;
   std::optional<Port<Pictures>> tets_pictures;

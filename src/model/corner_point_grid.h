@@ -12,10 +12,10 @@ namespace strataflow {
 /// turn counter-clockwise, K counts from the top.
 struct CornerPointGrid {
   Vec3 local_origin;
-  std::array<std::uint32_t, 3> size{};   ///< cells along I, J, K
-  std::vector<Vec3> pillars;             ///< an upper and a lower point per pillar, I fastest: 2 (I + 1)(J + 1)
-  std::vector<double> corner_z;          ///< 8 per cell, in the order of ZCORN; metres
-  std::vector<std::uint8_t> is_active;   ///< per cell, I fastest, then J, then K
+  std::array<std::uint32_t, 3> size{};  ///< cells along I, J, K
+  std::vector<Vec3> pillars;            ///< an upper and a lower point per pillar, I fastest: 2 (I + 1)(J + 1)
+  std::vector<double> corner_z;         ///< 8 per cell, in the order of ZCORN; metres
+  std::vector<std::uint8_t> is_active;  ///< per cell, I fastest, then J, then K
 
   std::size_t cell_count() const { return std::size_t{size[0]} * size[1] * size[2]; }
   std::size_t cell(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {

@@ -52,17 +52,17 @@ struct FaultFace {
 
 /// What became of the columns of a plan mesh on their way into an index space.
 struct SimulationGridReport {
-  std::string layout;                  ///< native, blocks, unstructured
-  std::string reason;                  ///< why it is not native
-  std::uint32_t blocks = 0;            ///< rectangles of columns (and layers) that share pillars
-  std::uint32_t split_columns = 0;     ///< columns in more than one piece because a pillar is straight
+  std::string layout;               ///< native, blocks, unstructured
+  std::string reason;               ///< why it is not native
+  std::uint32_t blocks = 0;         ///< rectangles of columns (and layers) that share pillars
+  std::uint32_t split_columns = 0;  ///< columns in more than one piece because a pillar is straight
   std::uint32_t active_cells = 0;
   std::uint32_t dead_cells = 0;
-  double occupancy_ratio = 0;          ///< columns with cells in all columns of the index box
-  double largest_deviation_m = 0;      ///< of a corner from its straight pillar
+  double occupancy_ratio = 0;             ///< columns with cells in all columns of the index box
+  double largest_deviation_m = 0;         ///< of a corner from its straight pillar
   double largest_volume_error_ratio = 0;  ///< of a cell, relative to its own volume
   double volume_error_ratio = 0;          ///< of all together
-  std::uint64_t index_contacts = 0;    ///< touching pairs that are neighbours by index
+  std::uint64_t index_contacts = 0;       ///< touching pairs that are neighbours by index
   std::uint64_t lateral_connections = 0, vertical_connections = 0, fault_connections = 0;  ///< NNCs, each in one
   template <class A>
   void archive(A& a) {
@@ -79,8 +79,8 @@ struct SimulationGrid {
   std::vector<std::int32_t> cell_region;   ///< per cell of the grid: index into `rock`, −1 where there is no cell
   std::vector<RegionRock> rock;
   std::vector<FaultTransmissibility> faults;
-  std::vector<FaultFace> fault_faces;      ///< ascending by fault, face, cell
-  std::vector<CellConnection> connections; ///< ascending by cell_0, cell_1
+  std::vector<FaultFace> fault_faces;       ///< ascending by fault, face, cell
+  std::vector<CellConnection> connections;  ///< ascending by cell_0, cell_1
   SimulationGridReport report;
   template <class A>
   void archive(A& a) {

@@ -8,9 +8,12 @@
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
 #include "stages/draw_stage.h"
+#include "stages/extract_quads_stage.h"
 #include "stages/generate_stage.h"
+#include "stages/hybrid_stage.h"
 #include "stages/judge_surfaces_stage.h"
 #include "stages/optimise_sites_stage.h"
+#include "stages/plan_problem_stage.h"
 #include "stages/read_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
@@ -73,6 +76,30 @@ template <>
 struct DataName<VolumeQualityReport> {
   static constexpr std::string_view text = "mesh quality";
 };
+template <>
+struct DataName<HybridMesh> {
+  static constexpr std::string_view text = "hybrid mesh";
+};
+template <>
+struct DataName<FeatureMesh> {
+  static constexpr std::string_view text = "plan problem";
+};
+template <>
+struct DataName<Attempt<FrameFieldResult>> {
+  static constexpr std::string_view text = "frame field";
+};
+template <>
+struct DataName<Attempt<FieldAndMap>> {
+  static constexpr std::string_view text = "map";
+};
+template <>
+struct DataName<Attempt<GridMapping>> {
+  static constexpr std::string_view text = "grid map";
+};
+template <>
+struct DataName<MeshedQuads> {
+  static constexpr std::string_view text = "quads";
+};
 
 std::vector<StageDescription> all_stages() {
   return {
@@ -96,8 +123,17 @@ std::vector<StageDescription> all_stages() {
       describe_stage<CompareSurfaces>("Measures the remeshed surfaces and holds them against the model", ""),
       describe_stage<MeasureComplexity>("Measures how complex the model is, as a whole and by neighbourhood",
                                         "[complexity]"),
+      describe_stage<PlanProblem>("Cleans the curves that quads must follow and triangulates between them", "[quad]"),
+      describe_stage<ComputeFrameField>("Directions of quads that stand on every feature", "[quad]"),
+      describe_stage<SeamlessMap>("A map along the field without folds, features on isolines", "[quad]"),
+      describe_stage<Quantize>("Gives features and singular points whole numbers in the map", "[quad]"),
+      describe_stage<ExtractQuads>("Takes the quads out of the map and smooths them", "[quad]"),
+      describe_stage<DrawQuads>("Draws the field, the map and the quads", ""),
       describe_stage<Tetrahedralize>("Fills every region with tetrahedra that conform to all surfaces",
                                      "[tetrahedralize]"),
+      describe_stage<RemeshHybrid>("Remeshes all surfaces with the same triangles on both sides of thin layers", "[hybrid]"),
+      describe_stage<FillHybrid>("Fills thin layers with prisms and the rest with pyramids and tetrahedra", "[hybrid]"),
+      describe_stage<TakeHybridCells>("Hands the cells of a hybrid mesh on", ""),
       describe_stage<CheckMesh>("Measures the mesh and holds it against the model", ""),
       describe_stage<DrawMesh>("Draws the mesh cut open along the faces of its cells", ""),
   };

@@ -13,7 +13,7 @@ namespace strataflow {
 /// and surfaces of the model: an invalid mesh is never written.
 struct CheckMesh {
   static constexpr std::string_view name = "check_mesh";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   NoOptions options;
 
   Result<VolumeQualityReport> operator()(const BuiltModel& built, const VolumeMesh& mesh, StageContext&) const;

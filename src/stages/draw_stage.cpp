@@ -1,8 +1,11 @@
 #include "stages/draw_stage.h"
 
+#include <algorithm>
+
 #include "io/write_png.h"
 #include "kernels/drawing/build_scene.h"
 #include "kernels/drawing/render.h"
+#include "kernels/drawing/scene_of_quads.h"
 
 namespace strataflow {
 
@@ -13,7 +16,7 @@ Result<void> draw(Pictures& pictures, const Scene& scene, const std::string& cap
   const Image image = render(scene, view);
   Result<std::vector<std::byte>> png = encode_png(image.width, image.height, image.rgb);
   if (!png) return png.failure();
-  const int exaggeration = static_cast<int>(automatic_exaggeration(scene));
+  const int exaggeration = static_cast<int>(view.vertical_exaggeration.value_or(automatic_exaggeration(scene)));
   pictures.pictures.push_back({caption + (exaggeration > 1 ? ", heights × " + std::to_string(exaggeration) : ""),
                                *std::move(png), scene.legend});
   return {};
@@ -48,6 +51,28 @@ Result<Pictures> DrawMesh::operator()(const VolumeMesh& mesh, StageContext&) con
   const Scene scene = scene_of_volume_mesh(mesh, middle_cut(mesh, view.azimuth_deg));
   if (const Result<void> drawn = draw(pictures, scene, "Cut open along the faces of the cells", view); !drawn)
     return drawn.failure();
+  return pictures;
+}
+
+Result<Pictures> DrawQuads::operator()(const FeatureMesh& problem, const Attempt<FieldAndMap>& seamless,
+                                       const Attempt<GridMapping>& grid, const MeshedQuads& quads,
+                                       StageContext&) const {
+  Pictures pictures;
+  ViewOptions view = page_view();
+  const bool is_plan = std::all_of(problem.points.begin(), problem.points.end(), [](const Vec3& p) { return p.z == 0; });
+  if (is_plan) {  // from above, north up
+    view.azimuth_deg = -90;
+    view.elevation_deg = 90;
+    view.height = view.width;
+    view.vertical_exaggeration = 1;
+  }
+  Result<void> drawn;
+  if (seamless.why_not.empty())
+    drawn = draw(pictures, scene_of_field(problem, seamless.value.field.field), "The field, on the triangles below", view);
+  if (drawn && grid.why_not.empty())
+    drawn = draw(pictures, scene_of_map(grid.value.mesh, grid.value.map), "Lines of whole numbers of the map", view);
+  if (drawn) drawn = draw(pictures, scene_of_quads(quads.mesh), "Quads; bold: features", view);
+  if (!drawn) return drawn.failure();
   return pictures;
 }
 

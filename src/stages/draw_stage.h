@@ -9,6 +9,7 @@
 #include "kernels/drawing/scene.h"
 #include "model/built_model.h"
 #include "model/volume_mesh.h"
+#include "stages/extract_quads_stage.h"
 
 namespace strataflow {
 
@@ -47,6 +48,16 @@ struct DrawMesh {
   NoOptions options;
 
   Result<Pictures> operator()(const VolumeMesh& mesh, StageContext& context) const;
+};
+
+/// Draws the field, the map and the quads; only what there is.
+struct DrawQuads {
+  static constexpr std::string_view name = "draw_quads";
+  static constexpr int version = 1;
+  NoOptions options;
+
+  Result<Pictures> operator()(const FeatureMesh& problem, const Attempt<FieldAndMap>& seamless,
+                              const Attempt<GridMapping>& grid, const MeshedQuads& quads, StageContext& context) const;
 };
 
 }  // namespace strataflow

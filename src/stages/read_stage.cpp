@@ -5,10 +5,17 @@
 #include "base/archive.h"
 #include "base/atomic_file.h"
 #include "io/read_input.h"
+#include "kernels/quads/plan/plan_curves.h"
 
 namespace strataflow {
 
 Result<void> rename_input(InputData& data, const ReadOptions& options) {
+  if (options.sticks) {
+    if (data.lines.empty())
+      return Failure{FailureCode::invalid_options, "sticks = true is given to a file without lines",
+                     "remove it, or name a file of fault sticks"};
+    data.lines = {trace_of_sticks(data.lines)};
+  }
   if (options.role) {
     const Role role = role_from(*options.role).value_or(Role::unknown);
     for (Entity& entity : data.surfaces.entities) entity.role = role;

@@ -16,16 +16,19 @@ namespace strataflow {
 struct ReadOptions {
   std::optional<std::string> name;  ///< overrides the name of the one thing the file holds
   std::optional<std::string> role;  ///< a word of Role; overrides what the file says its contents are
+  bool sticks = false;              ///< the lines are sticks of one fault
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     visit(name, OptionField{.name = "name", .description = "Overrides the name the file carries"});
     visit(role, OptionField{.name = "role",
                             .description = "Overrides what the file says its surfaces, lines or points are",
                             .words = role_words()});
+    visit(sticks, OptionField{.name = "sticks",
+                              .description = "The lines are sticks of one fault: their first points become its trace"});
   }
 };
 
-/// Gives everything in `data` that role, and the one thing in it that name. Fails with invalid_options when a name is
+/// Makes one trace of sticks, gives everything in `data` that role, and the one thing in it that name. Fails with invalid_options when a name is
 /// to be given to several things.
 Result<void> rename_input(InputData& data, const ReadOptions& options);
 

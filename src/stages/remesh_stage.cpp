@@ -1,6 +1,7 @@
 #include "stages/remesh_stage.h"
 
 #include "kernels/remeshing/guarded/remesh_guarded.h"
+#include "kernels/remeshing/interpolate_properties.h"
 #include "kernels/remeshing/remesh_at_resolution.h"
 #include "kernels/topology/building/build_structural_model.h"
 #include "stages/check_validity_stage.h"
@@ -9,9 +10,10 @@ namespace strataflow {
 
 namespace {
 
-RemeshedSurfaces surfaces_of(RemeshGuardedResult result) {
+RemeshedSurfaces surfaces_of(const StructuralModel& model, RemeshGuardedResult result) {
   RemeshedSurfaces remeshed;
   remeshed.soup = std::move(result.soup);
+  remeshed.soup.properties = interpolate_properties(model, remeshed.soup.points);
   remeshed.splits = result.report.splits;
   remeshed.collapses = result.report.collapses;
   remeshed.flips = result.report.flips;
@@ -51,10 +53,10 @@ Result<RemeshedSurfaces> Remesh::operator()(const BuiltModel& built, const Valid
   guarded.target_edge_length_m = plan->edge_length_m;
   guarded.surface_edge_length_m = plan->surface_edge_length_m;
   guarded.distance_ratio = options.hausdorff_ratio;
+  guarded.is_cancelled = [&] { return context.is_cancelled(); };
   Result<RemeshGuardedResult> result = remesh_guarded(built.model, guarded);
   if (!result) return result.failure();
-  if (context.is_cancelled()) return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
-  RemeshedSurfaces remeshed = surfaces_of(std::move(*result));
+  RemeshedSurfaces remeshed = surfaces_of(built.model, std::move(*result));
   remeshed.edge_length_m = plan->edge_length_m;
   remeshed.sites_asked = plan->sites;
   return remeshed;
@@ -84,7 +86,7 @@ Result<RemeshedSurfaces> RemeshByCells::operator()(const BuiltModel& built, cons
     return Remesh{options}(built, validity, context);
   }
   if (!result) return result.failure();
-  RemeshedSurfaces remeshed = surfaces_of(std::move(result->evened));
+  RemeshedSurfaces remeshed = surfaces_of(built.model, std::move(result->evened));
   remeshed.added_sites = result->added_sites;
   remeshed.merged_points = result->merged_points;
   remeshed.ball_failures = result->ball_failures;
@@ -99,8 +101,9 @@ Result<BuiltModel> BuildSurfaces::operator()(const RemeshedSurfaces& remeshed, S
 }
 
 Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, const BuiltModel& after,
-                                                   StageContext&) const {
+                                                   StageContext& context) const {
   SurfacesReport report;
+  const auto is_cancelled = [&] { return context.is_cancelled(); };
   report.before = analyze_surface_mesh(before.model);
   report.after = analyze_surface_mesh(after.model);
   if (options.must_preserve_all)
@@ -109,11 +112,12 @@ Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, con
   report.topology_after = topology_of(after.model);
   Result<HausdorffDistance> distance = hausdorff_distance({before.model.points, before.model.triangles},
                                                           {after.model.points, after.model.triangles},
-                                                          {.error_ratio = 3e-4, .samples_per_triangle = 40});
+                                                          {.error_ratio = 3e-4, .samples_per_triangle = 40, .is_cancelled = is_cancelled});
   if (!distance) return distance.failure();
   report.hausdorff = *distance;
   Result<std::vector<EntityDistance>> by_entity =
-      hausdorff_by_entity(before.model, after.model, {.error_ratio = 1e-3, .samples_per_triangle = 10});
+      hausdorff_by_entity(before.model, after.model,
+                          {.error_ratio = 1e-3, .samples_per_triangle = 10, .is_cancelled = is_cancelled});
   if (!by_entity) return by_entity.failure();
   report.by_entity = std::move(*by_entity);
   return report;

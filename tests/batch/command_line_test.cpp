@@ -55,7 +55,6 @@ TEST_F(CommandLine, exits_2_on_wrong_usage) {
   const std::vector<std::vector<std::string>> wrong = {{},
                                                        {"rum"},
                                                        {"check"},
-                                                       {"quality", good, "--patch-test"},
                                                        {"convert", "a.ts", "b.m"},
                                                        {"run"},
                                                        {"run", file("none.toml").string()},

@@ -11,6 +11,7 @@
 #include "kernels/reference_models/generate_reference_model.h"
 #include "kernels/topology/building/build_structural_model.h"
 #include "kernels/topology/validity/check_validity.h"
+#include "model/box3.h"
 #include "properties/rotation.h"
 #include "support/shuffled.h"
 
@@ -139,11 +140,18 @@ double total_volume_m3(const StructuralModel& model) {
                          [](double sum, const Region& region) { return sum + region.volume_m3; });
 }
 
+double extent_m3(const TriangleSoup& soup) {
+  Box3 box;
+  for (const Vec3& p : soup.points) box.take(p);
+  const Vec3 size = box.high - box.low;
+  return size.x * size.y * size.z;
+}
+
 class GeneratedModels : public testing::TestWithParam<GeneratedModel> {
  protected:
   const TriangleSoup soup_ = generated(GetParam());
   const StructuralModel model_ = built(soup_);
-  const double box_m3_ = GetParam().name[0] == 'D' ? 120.0 * 120.0 * 120.0 : 1600.0 * 930.0 * 500.0;
+  const double box_m3_ = extent_m3(soup_);
 };
 
 TEST_P(GeneratedModels, fill_their_box_and_share_every_facet_and_edge_with_their_neighbours) {
@@ -204,11 +212,23 @@ std::vector<GeneratedModel> all_models() {
   for (const char* name : {"A1", "A2", "A3", "A4", "A5", "A6", "B", "C"})
     for (const double resolution_m : {200.0, 110.0, 60.0}) models.push_back({name, resolution_m});
   for (const double resolution_m : {15.0, 10.0, 5.0}) models.push_back({"D", resolution_m});
+  for (const GeneratedModel& model : {GeneratedModel{"slab", 60},
+                                      {"variable-layers", 250},
+                                      {"variable-layers", 90},
+                                      {"veins", 500},
+                                      {"onlap", 10},
+                                      {"onlap", 4},
+                                      {"sandbox", 430},
+                                      {"fault-network", 1500},
+                                      {"dfn", 1600}})
+    models.push_back(model);
   return models;
 }
 
 INSTANTIATE_TEST_SUITE_P(Reference, GeneratedModels, testing::ValuesIn(all_models()), [](const auto& instance) {
-  return std::string(instance.param.name) + "_" + std::to_string(static_cast<int>(instance.param.resolution_m)) + "_m";
+  std::string name(instance.param.name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name + "_" + std::to_string(static_cast<int>(instance.param.resolution_m)) + "_m";
 });
 
 }  // namespace

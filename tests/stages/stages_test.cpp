@@ -69,6 +69,17 @@ TEST(ReadStage, gives_one_name_to_one_thing_only) {
   EXPECT_EQ(renamed.failure().code, FailureCode::invalid_options);
 }
 
+TEST(ReadStage, takes_the_first_points_of_sticks_as_the_trace_of_their_fault) {
+  InputData data;
+  data.lines = {{"F1", Role::curve, {{0, 0, 5}, {1, 0, 9}}, false}, {"F1", Role::curve, {{0, 2, 5}, {1, 2, 9}}, false}};
+  ASSERT_TRUE(rename_input(data, {{}, "fault", true}));
+  ASSERT_EQ(data.lines.size(), 1u);
+  EXPECT_EQ(data.lines[0].points, (std::vector<Vec3>{{0, 0, 5}, {0, 2, 5}}));
+  EXPECT_EQ(data.lines[0].role, Role::fault);
+  InputData surface = box();
+  EXPECT_FALSE(rename_input(surface, {{}, {}, true}));
+}
+
 TEST(CombineStage, keeps_the_order_and_moves_near_the_origin) {
   InputData far = box();
   for (Vec3& p : far.surfaces.points) p = p + Vec3{5e6, 5e6, 0};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 
 #include "batch/check_model.h"
 #include "batch/report/html_page.h"
@@ -36,6 +37,11 @@ std::string volume_text(const std::string& file, const VolumeQualityReport& qual
   return text + (quality.is_valid() ? "  valid\n" : "  not valid\n");
 }
 
+std::string patch_text(const PatchTestReport& patch) {
+  return "  patch test: linear fields are reproduced to " + readable_number(patch.max_error_ratio) + ", their energy to " +
+         readable_number(patch.energy_error_ratio) + (patch.passes() ? ", passed\n" : ", NOT passed\n");
+}
+
 std::string triangle_text(const std::string& file, const TriangleQualityReport& quality) {
   return file + ": " + std::to_string(quality.triangles) + " triangles, " + readable_number(quality.area_m2) + " m2\n" +
          distributions_text({quality.angle_deg, quality.quality, quality.radius_ratio}) +
@@ -46,9 +52,6 @@ std::string triangle_text(const std::string& file, const TriangleQualityReport& 
 }  // namespace
 
 int quality_command(const QualityArguments& arguments) {
-  if (arguments.patch_test)
-    return report_failure({FailureCode::invalid_usage, "--patch-test is not available in this version",
-                           "leave it out: quality and validity are measured without it"});
   const ScheduleScope threads(ScheduleKind::threads);
   int exit_code = 0;
   std::vector<std::string> reports;
@@ -64,7 +67,19 @@ int quality_command(const QualityArguments& arguments) {
     if (input->volume.cell_count() > 0) {
       const VolumeQualityReport quality = analyze_volume_mesh(input->volume);
       is_valid = quality.is_valid();
-      reports.push_back(arguments.json ? volume_quality_json(file, quality) : volume_text(file, quality));
+      std::optional<PatchTestReport> patch;
+      if (arguments.patch_test && is_valid) {
+        Result<PatchTestReport> solved = run_patch_test(input->volume);
+        if (!solved) {
+          exit_code = std::max(exit_code, report_failure({solved.failure().code, file + ": " + solved.failure().what,
+                                                          solved.failure().remedy}));
+          continue;
+        }
+        is_valid = solved->passes();
+        patch = *solved;
+      }
+      reports.push_back(arguments.json ? volume_quality_json(file, quality, patch)
+                                       : volume_text(file, quality) + (patch ? patch_text(*patch) : ""));
     } else if (!input->surfaces.triangles.empty()) {
       const TriangleQualityReport quality = analyze_triangles(input->surfaces.points, input->surfaces.triangles);
       is_valid = quality.degenerate == 0;

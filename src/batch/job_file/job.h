@@ -14,7 +14,10 @@
 #include "model/geology.h"
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
+#include "stages/extract_quads_stage.h"
+#include "stages/hybrid_stage.h"
 #include "stages/judge_surfaces_stage.h"
+#include "stages/plan_problem_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
 #include "stages/seal_stage.h"
@@ -41,6 +44,7 @@ struct JobInput {
   std::optional<std::string> role;
   std::optional<double> resolution_m;
   std::optional<double> raw_ratio;
+  bool sticks = false;
   std::string origin;  ///< file:line
   template <class Visitor>
   void visit_fields(Visitor& visit) {
@@ -61,6 +65,8 @@ struct JobInput {
                                                 "(overshoot if negative); absent: sealed",
                                  .minimum = -0.2,
                                  .maximum = 0.2});
+    visit(sticks, OptionField{.name = "sticks",
+                              .description = "The file's lines are sticks of one fault: their first points become its trace"});
   }
 };
 
@@ -122,6 +128,23 @@ struct SealOptions {
   }
 };
 
+/// [quad]: the options of five stages.
+struct QuadOptions {
+  PlanProblemOptions problem;
+  FrameFieldOptions field;
+  QuantizeStageOptions integers;
+  ExtractQuadsOptions quads;
+  QuadFallback fallback;
+  template <class Visitor>
+  void visit_fields(Visitor& visit) {
+    problem.visit_fields(visit);
+    field.visit_fields(visit);
+    integers.visit_own(visit);
+    quads.visit_own(visit);
+    fallback.visit_fields(visit);
+  }
+};
+
 /// [hex]: the keys a job may already carry for the product hexes of later versions.
 struct LaterHexOptions {
   std::optional<double> edge_length_m;
@@ -151,7 +174,8 @@ struct Job {
   RemeshStageOptions remesh;
   LaterHexOptions hex;
   ComplexityOptions complexity;
-  NoOptions quad, hybrid;  ///< sections of later versions, without keys so far
+  QuadOptions quad;
+  HybridOptions hybrid;
 
   /// Calls visit(section name, options) for every section of options.
   template <class Visitor>

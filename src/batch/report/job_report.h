@@ -16,6 +16,7 @@
 #include "model/site_set.h"
 #include "model/volume_mesh.h"
 #include "stages/draw_stage.h"
+#include "stages/hybrid_stage.h"
 #include "stages/remesh_stage.h"
 
 namespace strataflow {
@@ -46,6 +47,17 @@ struct JobReport {
   std::shared_ptr<const SurfacesReport> surfaces_report;
   std::shared_ptr<const Pictures> surfaces_pictures;
   std::shared_ptr<const ComplexityReport> complexity;
+  std::shared_ptr<const RemeshedSurfaces> hybrid_remeshed;
+  std::shared_ptr<const BuiltModel> hybrid_surfaces;
+  std::shared_ptr<const SurfacesReport> hybrid_surfaces_report;
+  std::shared_ptr<const HybridMesh> hybrid;
+  std::shared_ptr<const VolumeQualityReport> hybrid_quality;
+  std::shared_ptr<const Pictures> hybrid_pictures;
+  std::shared_ptr<const FeatureMesh> plan_problem;
+  std::shared_ptr<const Attempt<FieldAndMap>> seamless_map;
+  std::shared_ptr<const Attempt<GridMapping>> grid;
+  std::shared_ptr<const MeshedQuads> quads;
+  std::shared_ptr<const Pictures> quads_pictures;
   std::shared_ptr<const VolumeMesh> tets;
   std::shared_ptr<const VolumeQualityReport> tets_quality;
   std::shared_ptr<const Pictures> tets_pictures;

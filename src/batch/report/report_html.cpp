@@ -207,8 +207,43 @@ std::string complexity_section(const ComplexityReport& report) {
          html_table({"region", "volume, m³", "thinnest, m", "edge length, m"}, needs);
 }
 
-std::string tets_section(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
-  std::string html = "<h2>Tetrahedra</h2>\n";
+std::string quads_section(const FeatureMesh& problem, const MeshedQuads& quads, const Attempt<GridMapping>* grid) {
+  const QuadQuality& quality = quads.quality;
+  std::string html = "<h2>Quads</h2>\n";
+  if (!quads.why_subdivided.empty())
+    html += "<p class=\"note\">Every triangle was cut into three quads, for no map was found: " +
+            escaped_html(quads.why_subdivided) + "</p>\n";
+  html += html_table({}, {{"quads", count(quads.mesh.quads.size())},
+                          {"vertices", count(quads.mesh.points.size())},
+                          {"wanted edge length, m", readable_number(problem.edge_length_m)},
+                          {"irregular vertices inside", count(quality.interior_irregular)},
+                          {"smallest scaled Jacobian", readable_number(quality.scaled_jacobian.minimum)},
+                          {"the same before smoothing", readable_number(quads.scaled_jacobian_before)},
+                          {"mean scaled Jacobian", readable_number(quality.scaled_jacobian.mean())},
+                          {"inverted quads", count(quality.inverted)},
+                          {"features", count(problem.features.size())},
+                          {"features missing", count(quads.missing.size())}});
+  Rows valences;
+  for (std::size_t v = 1; v < std::max(quality.interior_valence.size(), quality.boundary_valence.size()); ++v) {
+    const auto points = [&](const std::vector<std::uint64_t>& by_valence) {
+      return v < by_valence.size() ? count(by_valence[v]) : count(0);
+    };
+    valences.push_back({std::to_string(v), points(quality.interior_valence), points(quality.boundary_valence)});
+  }
+  html += html_table({"quads around a vertex", "vertices inside", "on the boundary"}, valences);
+  if (grid && grid->why_not.empty())
+    html += html_table({}, {{"half-edges of the decimated map", count(grid->value.half_edges)},
+                            {"integer operations", count(grid->value.operations)},
+                            {"energy before, after", readable_number(grid->value.energy_before) + ", " +
+                                                         readable_number(grid->value.energy)},
+                            {"transfer", grid->value.transfer}});
+  html += "<div class=\"row\">\n" + svg_histogram(quality.scaled_jacobian) + svg_histogram(quality.angle_deg) +
+          svg_histogram(quality.edge_length_m) + "</div>\n";
+  return html + changes_table(quads.mesh.changes);
+}
+
+std::string volume_section(const std::string& title, const VolumeMesh& mesh, const VolumeQualityReport& quality) {
+  std::string html = "<h2>" + title + "</h2>\n";
   html += html_table({}, {{"cells", count(quality.cells)},
                           {"vertices", count(quality.vertices)},
                           {"volume, m³", readable_number(quality.volume_m3)},
@@ -217,6 +252,16 @@ std::string tets_section(const VolumeMesh& mesh, const VolumeQualityReport& qual
                           {"smallest dihedral angle, °", readable_number(quality.min_dihedral_deg)},
                           {"largest dihedral angle, °", readable_number(quality.max_dihedral_deg)},
                           {"facets on surfaces", count(mesh.facets.size())}});
+  const DihedralQuantiles& angles = quality.dihedral_quantiles;
+  Rows quantiles;
+  for (std::size_t i = 0; i < angles.all.size() && i < angles.outside_wedges.size(); ++i)
+    quantiles.push_back({readable_number(100 * angles.all[i].share), readable_number(angles.all[i].angle_deg),
+                         readable_number(angles.outside_wedges[i].angle_deg)});
+  if (!quantiles.empty())
+    html += html_table({"% of dihedral angles", "at most, °", "outside wedges, °"}, quantiles) +
+            "<p class=\"note\">" + count(angles.cells_in_wedges) +
+            " cells lie in wedges, where two surfaces meet at less than 20°; the smallest angle of the others is " +
+            readable_number(angles.min_outside_wedges_deg) + "°.</p>\n";
   Rows regions;
   for (const RegionQuality& region : quality.per_region)
     regions.push_back(
@@ -226,6 +271,24 @@ std::string tets_section(const VolumeMesh& mesh, const VolumeQualityReport& qual
   for (const Distribution& distribution : quality.distributions) html += svg_histogram(distribution);
   html += "</div>\n";
   return html + changes_table(mesh.changes);
+}
+
+std::string hybrid_section(const HybridMesh& hybrid, const VolumeQualityReport& quality) {
+  const HybridReport& report = hybrid.report;
+  std::string html = volume_section("Hybrid mesh", hybrid.mesh, quality);
+  html += html_table({}, {{"prisms", count(quality.prisms)},
+                          {"pyramids", count(quality.pyramids)},
+                          {"tetrahedra", count(quality.tetrahedra)},
+                          {"cells between facing triangles", count(report.cells_from_voronoi)},
+                          {"cells of the fill", count(report.cells_from_fill)},
+                          {"base edge : height of prisms, mean", readable_number(report.mean_anisotropy_ratio)},
+                          {"pairs of facing triangles", count(report.facing.pairs)},
+                          {"of them given up", count(report.dropped.isolated + report.dropped.inverted +
+                                                     report.dropped.nonconforming + report.dropped.crossing +
+                                                     report.dropped.unfilled)},
+                          {"candidates that were no cells", count(report.facing.turned + report.facing.inverted +
+                                                                  report.facing.flat)}});
+  return html;
 }
 
 }  // namespace
@@ -242,8 +305,12 @@ std::string report_html(const JobReport& report) {
     body += surfaces_section(*report.remeshed, *report.surfaces_validity, *report.surfaces_report) +
             pictures_html(report.surfaces_pictures);
   if (report.complexity) body += complexity_section(*report.complexity);
+  if (report.quads && report.plan_problem)
+    body += quads_section(*report.plan_problem, *report.quads, report.grid.get()) + pictures_html(report.quads_pictures);
   if (report.tets && report.tets_quality)
-    body += tets_section(*report.tets, *report.tets_quality) + pictures_html(report.tets_pictures);
+    body += volume_section("Tetrahedra", *report.tets, *report.tets_quality) + pictures_html(report.tets_pictures);
+  if (report.hybrid && report.hybrid_quality)
+    body += hybrid_section(*report.hybrid, *report.hybrid_quality) + pictures_html(report.hybrid_pictures);
   body += stages_section(report);
   return html_page(name + " – strataflow", body);
 }

@@ -356,6 +356,67 @@ Json complexity_block(const ComplexityReport& report) {
           {"regions", needs}};
 }
 
+Json json_of(const DihedralQuantiles& angles) {
+  const auto listed = [](const std::vector<AngleQuantile>& quantiles) {
+    Json list = Json::array();
+    for (const AngleQuantile& one : quantiles) list.push_back({{"share", one.share}, {"angle_deg", one.angle_deg}});
+    return list;
+  };
+  return {{"all", listed(angles.all)},
+          {"wedge_deg", DihedralQuantiles::wedge_deg},
+          {"cells_in_wedges", angles.cells_in_wedges},
+          {"sharpest_wedge_deg", angles.sharpest_wedge_deg},
+          {"min_outside_wedges_deg", angles.min_outside_wedges_deg},
+          {"outside_wedges", listed(angles.outside_wedges)}};
+}
+
+Json quads_block(const FeatureMesh& problem, const MeshedQuads& quads, const Attempt<FieldAndMap>* seamless,
+                 const Attempt<GridMapping>* grid) {
+  const QuadQuality& quality = quads.quality;
+  std::vector<Distribution> spreads{quality.scaled_jacobian, quality.angle_deg, quality.edge_length_m};
+  Json block = {{"quads", quads.mesh.quads.size()},
+                {"vertices", quads.mesh.points.size()},
+                {"edge_length_m", problem.edge_length_m},
+                {"triangles", problem.triangles.size()},
+                {"interior_irregular", quality.interior_irregular},
+                {"interior_valence", quality.interior_valence},
+                {"boundary_valence", quality.boundary_valence},
+                {"inverted", quality.inverted},
+                {"min_scaled_jacobian", quality.scaled_jacobian.minimum},
+                {"min_scaled_jacobian_before_smoothing", quads.scaled_jacobian_before},
+                {"mean_scaled_jacobian", quality.scaled_jacobian.mean()},
+                {"features", problem.features.size()},
+                {"features_missing", quads.missing.size()},
+                {"fallback", quads.why_subdivided.empty() ? Json(nullptr) : Json(quads.why_subdivided)},
+                {"histograms", json_of(spreads)},
+                {"changes", json_of(quads.mesh.changes)}};
+  if (seamless && seamless->why_not.empty()) {
+    const FrameFieldReport& report = seamless->value.field.report;
+    block["field"] = {{"valence_3", report.valence_3},
+                      {"valence_5", report.valence_5},
+                      {"valence_other", report.valence_other},
+                      {"on_features", report.feature_irregular},
+                      {"cancelled", report.cancelled},
+                      {"smallest_sine", seamless->value.field.field.smallest_sine},
+                      {"given_up", seamless->value.retries}};
+    const MapReport& map = seamless->value.map.report;
+    block["map"] = {{"unknowns", map.unknowns},
+                    {"iterations", map.foldover_free.iterations},
+                    {"flipped_before", map.foldover_free.flipped_before},
+                    {"energy", map.foldover_free.energy},
+                    {"smallest_determinant", map.foldover_free.smallest_determinant}};
+  }
+  if (grid && grid->why_not.empty())
+    block["integers"] = {{"half_edges", grid->value.half_edges},
+                         {"operations", grid->value.operations},
+                         {"doublings", grid->value.doublings},
+                         {"energy_before", grid->value.energy_before},
+                         {"energy", grid->value.energy},
+                         {"transfer", grid->value.transfer},
+                         {"unmet_features", grid->value.unmet_features}};
+  return block;
+}
+
 Json tets_block(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
   return {{"vertices", quality.vertices},
           {"cells", quality.cells},
@@ -363,11 +424,62 @@ Json tets_block(const VolumeMesh& mesh, const VolumeQualityReport& quality) {
           {"volume_m3", quality.volume_m3},
           {"min_dihedral_deg", quality.min_dihedral_deg},
           {"max_dihedral_deg", quality.max_dihedral_deg},
+          {"dihedral_quantiles", json_of(quality.dihedral_quantiles)},
           {"inverted", quality.inverted},
           {"nonconforming_faces", quality.nonconforming_faces},
           {"facets", mesh.facets.size()},
           {"histograms", json_of(quality.distributions)},
           {"changes", json_of(mesh.changes)}};
+}
+
+Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, const RemeshedSurfaces& surfaces,
+                  const SurfacesReport& compared) {
+  const HybridReport& report = hybrid.report;
+  Json regions = Json::array();
+  for (std::size_t r = 0; r < report.regions.size(); ++r) {
+    const HybridRegion& region = report.regions[r];
+    regions.push_back({{"region", r},
+                       {"name", r < hybrid.mesh.region_names.size() ? hybrid.mesh.region_names[r] : ""},
+                       {"cells", region.tetrahedra + region.pyramids + region.prisms},
+                       {"tets", region.tetrahedra},
+                       {"pyramids", region.pyramids},
+                       {"prisms", region.prisms},
+                       {"volume_m3", region.volume_m3},
+                       {"prism_volume_ratio", region.volume_m3 > 0 ? region.prism_volume_m3 / region.volume_m3 : 0}});
+  }
+  Json block = tets_block(hybrid.mesh, quality);
+  block["per_region"] = regions;
+  block["tets"] = quality.tetrahedra;
+  block["pyramids"] = quality.pyramids;
+  block["prisms"] = quality.prisms;
+  block["cells_from_voronoi"] = report.cells_from_voronoi;
+  block["cells_from_fill"] = report.cells_from_fill;
+  block["min_scaled_jacobian"] = quality.min_scaled_jacobian;
+  block["mean_scaled_jacobian"] = quality.mean_scaled_jacobian;
+  block["candidates"] = {{"pairs", report.facing.pairs},
+                         {"turned", report.facing.turned},
+                         {"inverted", report.facing.inverted},
+                         {"flat", report.facing.flat},
+                         {"unequal", report.facing.unequal},
+                         {"dropped",
+                          {{"isolated", report.dropped.isolated},
+                           {"inverted", report.dropped.inverted},
+                           {"nonconforming", report.dropped.nonconforming},
+                           {"crossing", report.dropped.crossing},
+                           {"unfilled", report.dropped.unfilled}}}};
+  block["points"] = {{"surfaces", report.surface_points},
+                     {"layers", report.layer_points},
+                     {"centres", report.centre_points},
+                     {"apexes", report.apex_points},
+                     {"fill", report.fill_points}};
+  block["anisotropy_ratio"] = {{"min", report.min_anisotropy_ratio},
+                               {"mean", report.mean_anisotropy_ratio},
+                               {"max", report.max_anisotropy_ratio}};
+  block["surfaces"] = {{"sites", surfaces.sites_asked},
+                       {"added_sites", surfaces.added_sites},
+                       {"triangles", compared.after.triangles.triangles},
+                       {"hausdorff_ratio", compared.hausdorff.ratio()}};
+  return block;
 }
 
 }  // namespace
@@ -395,6 +507,11 @@ std::string report_json(const JobReport& report) {
     json["surfaces"] =
         surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
   if (report.complexity) json["complexity"] = complexity_block(*report.complexity);
+  if (report.quads && report.plan_problem)
+    json["quads"] = quads_block(*report.plan_problem, *report.quads, report.seamless_map.get(), report.grid.get());
+  if (report.hybrid && report.hybrid_quality && report.hybrid_remeshed && report.hybrid_surfaces_report)
+    json["hybrid"] = hybrid_block(*report.hybrid, *report.hybrid_quality, *report.hybrid_remeshed,
+                                  *report.hybrid_surfaces_report);
   if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
   return written(json);
 }
@@ -413,8 +530,9 @@ std::string model_json(const BuiltModel& built, const ValidityReport& validity) 
   return written(model_block(built, validity));
 }
 
-std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality) {
-  return written({{"file", file},
+std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality,
+                                const std::optional<PatchTestReport>& patch) {
+  Json json = {{"file", file},
                   {"vertices", quality.vertices},
                   {"cells",
                    {{"total", quality.cells},
@@ -433,10 +551,17 @@ std::string volume_quality_json(const std::string& file, const VolumeQualityRepo
                   {"boundary_faces", quality.boundary_faces},
                   {"min_dihedral_deg", quality.min_dihedral_deg},
                   {"max_dihedral_deg", quality.max_dihedral_deg},
+                  {"dihedral_quantiles", json_of(quality.dihedral_quantiles)},
                   {"min_scaled_jacobian", quality.min_scaled_jacobian},
                   {"mean_scaled_jacobian", quality.mean_scaled_jacobian},
                   {"valid", quality.is_valid()},
-                  {"histograms", json_of(quality.distributions)}});
+                  {"histograms", json_of(quality.distributions)}};
+  if (patch)
+    json["patch_test"] = {{"unknowns", patch->unknowns},
+                          {"max_error_ratio", patch->max_error_ratio},
+                          {"energy_error_ratio", patch->energy_error_ratio},
+                          {"passes", patch->passes()}};
+  return written(json);
 }
 
 std::string triangle_quality_json(const std::string& file, const TriangleQualityReport& quality) {

@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include "batch/report/job_report.h"
+#include "kernels/hybrid/patch_test.h"
 #include "kernels/quality/analyze_triangles.h"
 
 namespace strataflow {
@@ -15,8 +17,9 @@ std::string timing_json(const JobReport& report, int threads, double total_s, do
 /// The `model` block of report.json by itself, as `strataflow check --json` prints it.
 std::string model_json(const BuiltModel& built, const ValidityReport& validity);
 
-/// Quality of a mesh file of any cells, as `strataflow quality --json` prints it.
-std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality);
+/// Quality of a mesh file of any cells, and how its patch test went, as `strataflow quality --json` prints it.
+std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality,
+                                const std::optional<PatchTestReport>& patch = std::nullopt);
 
 /// Quality of a file of triangles.
 std::string triangle_quality_json(const std::string& file, const TriangleQualityReport& quality);

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 
+#include "base/atomic_file.h"
 #include "batch/build_graph.h"
 #include "batch/options/closest_word.h"
+#include "batch/report/comparison_html.h"
 #include "batch/report/job_report.h"
 #include "batch/run/run_files.h"
 #include "batch/run/run_folder.h"
@@ -89,6 +91,17 @@ JobReport report_of(const Job& job, const WiredJob& wired, const StageGraph& gra
   report.surfaces_report = output(wired.surfaces_report);
   report.surfaces_pictures = output(wired.surfaces_pictures);
   report.complexity = output(wired.complexity);
+  report.hybrid_remeshed = output(wired.hybrid_remeshed);
+  report.hybrid_surfaces = output(wired.hybrid_surfaces);
+  report.hybrid_surfaces_report = output(wired.hybrid_surfaces_report);
+  report.hybrid = output(wired.hybrid);
+  report.hybrid_quality = output(wired.hybrid_quality);
+  report.hybrid_pictures = output(wired.hybrid_pictures);
+  report.plan_problem = output(wired.plan_problem);
+  report.seamless_map = output(wired.seamless_map);
+  report.grid = output(wired.grid);
+  report.quads = output(wired.quads);
+  report.quads_pictures = output(wired.quads_pictures);
   report.tets = output(wired.tets);
   report.tets_quality = output(wired.tets_quality);
   report.tets_pictures = output(wired.tets_pictures);
@@ -124,6 +137,7 @@ Result<std::vector<JobOutcome>> run_batch(const std::vector<Job>& jobs, const Ba
   const RunOutcome outcome = run_graph(graph, run);
 
   std::vector<JobOutcome> results;
+  std::vector<JobReport> finished;
   for (std::size_t i = 0; i < jobs.size(); ++i) {
     const JobReport report = report_of(jobs[i], wired[i], graph, outcome);
     JobOutcome& result = results.emplace_back();
@@ -147,6 +161,13 @@ Result<std::vector<JobOutcome>> run_batch(const std::vector<Job>& jobs, const Ba
       result.failure = cancelled;
     else if (const Result<void> written = replace_run_folder(folders[i], files); !written)
       result.failure = written.failure();
+    else
+      finished.push_back(report);
+  }
+  if (finished.size() > 1) {  // one page for all, beside the first run folder
+    const fs::path page = folders.front().parent_path() / "comparison.html";
+    if (const Result<void> written = write_file_atomically(page, comparison_html(finished)); !written)
+      results.front().warnings.push_back("comparison: not_written: " + written.failure().what);
   }
   return results;
 }

@@ -74,15 +74,18 @@ std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
     add_surfaces("surfaces", report.surfaces->model);
   if (report.complexity && job.makes("complexity"))
     add("complexity.vtu", write_vtu(report.complexity->map, report.complexity->fields));
-  if (report.tets && report.tets_quality && job.makes("tets")) {
-    add("tets.vtu", write_vtu(*report.tets));
-    add("tets_facets.vtp", write_facets_vtp(*report.tets));
-    if (job.writes("gocad"))
-      if (const Result<std::string> solid = write_gocad_so(*report.tets, job.header.name)) add("tets.so", *solid);
-    if (job.writes("medit")) add("tets.mesh", write_medit(*report.tets));
-    if (job.writes("gmsh")) add("tets.msh", write_gmsh(*report.tets));
-    if (job.writes("abaqus")) add("tets.inp", write_abaqus(*report.tets));
-  }
+  if (report.quads && job.makes("quads")) add("quads.vtp", write_quads_vtp(report.quads->mesh));
+  const auto add_volume = [&](const std::string& product, const VolumeMesh& mesh) {
+    add(product + ".vtu", write_vtu(mesh));
+    add(product + "_facets.vtp", write_facets_vtp(mesh));
+    if (job.writes("gocad"))  // tetrahedra only
+      if (const Result<std::string> solid = write_gocad_so(mesh, job.header.name)) add(product + ".so", *solid);
+    if (job.writes("medit")) add(product + ".mesh", write_medit(mesh));
+    if (job.writes("gmsh")) add(product + ".msh", write_gmsh(mesh));
+    if (job.writes("abaqus")) add(product + ".inp", write_abaqus(mesh));
+  };
+  if (report.tets && report.tets_quality && job.makes("tets")) add_volume("tets", *report.tets);
+  if (report.hybrid && report.hybrid_quality && job.makes("hybrid")) add_volume("hybrid", report.hybrid->mesh);
   return files;
 }
 

@@ -205,6 +205,7 @@ VolumeQualityReport analyze_volume_mesh(const VolumeMesh& mesh) {
   report.inverted_examples = std::move(total.inverted);
   report.min_dihedral_deg = total.distributions[dihedral].minimum;
   report.max_dihedral_deg = total.distributions[dihedral].maximum;
+  report.dihedral_quantiles = dihedral_quantiles(mesh);
   report.min_scaled_jacobian = total.distributions[scaled_jacobian].minimum;
   report.mean_scaled_jacobian = total.distributions[scaled_jacobian].mean();
   for (Distribution& distribution : total.distributions)

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels/quality/dihedral_quantiles.h"
 #include "kernels/quality/distribution.h"
 #include "model/volume_mesh.h"
 
@@ -38,6 +39,7 @@ struct VolumeQualityReport {
   std::uint64_t coincident_boundary_vertices = 0;  ///< seams that are not welded, or split on purpose; no violation
   std::uint64_t open_boundary_edges = 0;           ///< edges where the boundary faces do not close up
   double min_dihedral_deg = 0, max_dihedral_deg = 0;
+  DihedralQuantiles dihedral_quantiles;
   double min_scaled_jacobian = 0, mean_scaled_jacobian = 0;
   /// In this order: dihedral_deg, scaled_jacobian, tetrahedron_radius_ratio, tetrahedron_shape, prism_shape,
   /// hexahedron_shape, hexahedron_skew, tetrahedron_relative_size, hexahedron_relative_size (relative to the mean of
@@ -51,7 +53,7 @@ struct VolumeQualityReport {
   void archive(A& a) {
     a(vertices, cells, tetrahedra, pyramids, prisms, hexahedra, volume_m3, per_region, inverted, inverted_examples,
       inner_faces, boundary_faces, nonconforming_faces, faces_with_hanging_vertex, coincident_boundary_vertices,
-      open_boundary_edges, min_dihedral_deg, max_dihedral_deg, min_scaled_jacobian, mean_scaled_jacobian,
+      open_boundary_edges, min_dihedral_deg, max_dihedral_deg, dihedral_quantiles, min_scaled_jacobian, mean_scaled_jacobian,
       distributions);
   }
 };

@@ -139,7 +139,7 @@ Found search(const Piece& whole, double beaten_m, double error_m, std::uint64_t 
 }
 
 DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other, double error_m,
-                          std::uint64_t most_samples) {
+                          std::uint64_t most_samples, const std::function<bool()>& is_cancelled) {
   std::vector<char> is_used(mesh.points.size(), 0);  // only vertices of triangles count
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) is_used[v] = 1;
@@ -184,6 +184,7 @@ DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other
     return a.bound_m != b.bound_m ? a.bound_m > b.bound_m : a.triangle < b.triangle;
   });
   for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
+    if (is_cancelled && is_cancelled()) break;  // who asked throws the result away
     if (candidates[begin].bound_m <= result.distance_m + error_m) {
       result.bound_m = std::max(result.bound_m, candidates[begin].bound_m);
       break;
@@ -234,8 +235,10 @@ Result<HausdorffDistance> hausdorff_distance(const TriangleMesh& first, const Tr
     for (const std::uint32_t v : t) box.take(second.points[v]);
   const double error_m = options.error_ratio * box.diagonal_m();
   const std::uint64_t most = options.samples_per_triangle.value_or(std::numeric_limits<std::uint64_t>::max());
-  result.forward = directed(first, NearestTriangle(second), error_m, most);
-  result.backward = directed(second, NearestTriangle(first), error_m, most);
+  result.forward = directed(first, NearestTriangle(second), error_m, most, options.is_cancelled);
+  result.backward = directed(second, NearestTriangle(first), error_m, most, options.is_cancelled);
+  if (options.is_cancelled && options.is_cancelled())
+    return Failure{FailureCode::cancelled, "comparing was stopped", "run it again"};
   return result;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ struct HausdorffOptions {
   /// At most so many samples in one triangle besides its corners: where that does not suffice the error is larger, and
   /// `bound_m` says by how much. Absent: as many as the error takes.
   std::optional<std::uint64_t> samples_per_triangle = std::nullopt;
+  std::function<bool()> is_cancelled = {};  ///< asked now and then
 };
 
 /// sup over one mesh of the distance to the other. The true value lies in [distance_m, bound_m].
@@ -47,7 +49,7 @@ struct HausdorffDistance {
 /// Branch and bound instead of a fixed sampling: a piece of a triangle whose three corners lie within u of one and the
 /// same triangle of the other mesh lies within u of it altogether, since the distance to a convex set is convex. Pieces
 /// are split until none can exceed the largest distance found by more than the allowed error.
-/// Fails with invalid_input when one of the meshes is empty, with invalid_options.
+/// Fails with invalid_input when one of the meshes is empty, with invalid_options, cancelled.
 Result<HausdorffDistance> hausdorff_distance(const TriangleMesh& first, const TriangleMesh& second,
                                              const HausdorffOptions& options = {});
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace strataflow {
@@ -102,6 +103,34 @@ void SheetSoup::add_box_sides(std::uint32_t top, const Vec3& low, const Vec3& hi
   side(top + 3, 1, low.y, 0, 2);
   side(top + 4, 0, high.x, 1, 2);
   side(top + 5, 0, low.x, 1, 2);
+}
+
+TriangleSoup SheetSoup::take_welded() {
+  std::vector<std::uint32_t> order(soup_.points.size()), number(soup_.points.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+    if (soup_.points[a] == soup_.points[b]) return a < b;
+    return lexicographically_less(soup_.points[a], soup_.points[b]);
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const bool is_repeat = i > 0 && soup_.points[order[i]] == soup_.points[order[i - 1]];
+    number[order[i]] = is_repeat ? number[order[i - 1]] : order[i];
+  }
+  for (Triangle& triangle : soup_.triangles)
+    for (std::uint32_t& p : triangle) p = number[p];
+  std::vector<Vec3> kept;
+  for (std::uint32_t p = 0; p < number.size(); ++p) {  // a repeat has the number of a point before it
+    if (number[p] == p) {
+      number[p] = static_cast<std::uint32_t>(kept.size());
+      kept.push_back(soup_.points[p]);
+    } else {
+      number[p] = number[number[p]];
+    }
+  }
+  for (Triangle& triangle : soup_.triangles)
+    for (std::uint32_t& p : triangle) p = number[p];
+  soup_.points = std::move(kept);
+  return take();
 }
 
 }  // namespace strataflow

@@ -25,6 +25,8 @@ class SheetSoup {
   void add_box_sides(std::uint32_t top, const Vec3& low, const Vec3& high, double edge_m);
 
   TriangleSoup take() { return std::move(soup_); }
+  /// The same with every position once: sheets that met in equal points share them.
+  TriangleSoup take_welded();
 
  private:
   TriangleSoup soup_;

@@ -184,6 +184,7 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   RemeshGuardedOptions guarded;
   guarded.target_edge_length_m = options.edge_length_m;
   guarded.distance_ratio = options.distance_ratio;
+  guarded.is_cancelled = options.is_cancelled;
   Result<RemeshGuardedResult> evened = remesh_guarded(best.built.model, guarded);
   if (!evened) return evened.failure();
   result.evened = std::move(*evened);

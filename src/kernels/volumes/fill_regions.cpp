@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "base/child_process.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/tetgen/run_tetgen.h"
 #include "kernels/volumes/refine_interior.h"
@@ -270,6 +271,23 @@ Result<FilledRegions> fill_regions(const StructuralModel& model, const Tetrahedr
   for (std::uint32_t r = 0; r < region_count; ++r)
     if (is_waiting[r]) return cannot_fill(job, r, {"its surfaces and its neighbours' kept splitting each other"});
   return filled;
+}
+
+Result<FilledCavity> fill_cavity(const RegionBoundary& boundary, const std::string& name, double volume_m3,
+                                 const TetrahedralizeOptions& options, const std::filesystem::path& worker,
+                                 const CancellationToken* cancellation) {
+  StructuralModel alone;  // all that a job asks of its model are a region's name and volume
+  alone.regions.resize(1);
+  alone.regions[0].name = name;
+  alone.regions[0].volume_m3 = volume_m3;
+  const AttemptPlan plan;
+  const std::filesystem::path program = worker.empty() ? program_folder() / "tet_worker" : worker;
+  const Job job{alone, options, plan, program, cancellation};
+  RegionBoundary own = boundary;
+  own.region = 0;
+  Filling filling = fill_keeping_surfaces(job, own);
+  if (filling.failure) return *filling.failure;
+  return FilledCavity{std::move(filling.mesh), std::move(filling.rejected)};
 }
 
 }  // namespace strataflow

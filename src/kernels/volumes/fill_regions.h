@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "base/cancellation.h"
@@ -33,5 +35,18 @@ struct FilledRegions {
 Result<FilledRegions> fill_regions(const StructuralModel& model, const TetrahedralizeOptions& options,
                                    const AttemptPlan& plan, const std::filesystem::path& worker,
                                    const CancellationToken* cancellation);
+
+/// One cavity filled, or every attempt that could not be verified.
+struct FilledCavity {
+  std::optional<RegionMesh> mesh;
+  std::vector<std::string> rejected;
+};
+
+/// Fills what `boundary` encloses, `volume_m3`, with tetrahedra that keep each of its facets, which need not be a whole
+/// region's. `name` stands in failures. Fails with timed_out, cancelled, or geometry_failed when there is no worker;
+/// that no attempt succeeds is an outcome.
+Result<FilledCavity> fill_cavity(const RegionBoundary& boundary, const std::string& name, double volume_m3,
+                                 const TetrahedralizeOptions& options, const std::filesystem::path& worker,
+                                 const CancellationToken* cancellation);
 
 }  // namespace strataflow

@@ -115,6 +115,13 @@ TEST(HausdorffDistance, refuses_empty_meshes_and_senseless_errors) {
             FailureCode::invalid_options);
 }
 
+TEST(HausdorffDistance, stops_when_asked_to) {
+  const Mesh a = sphere(1, 12), b = sphere(1.01, 9);
+  const auto stopped = hausdorff_distance({a.points, a.triangles}, {b.points, b.triangles}, {.is_cancelled = [] { return true; }});
+  ASSERT_FALSE(stopped);
+  EXPECT_EQ(stopped.failure().code, FailureCode::cancelled);
+}
+
 TEST(HausdorffDistance, of_30000_against_20000_triangles_takes_well_under_a_second) {
   const Mesh a = sphere(1, 88), b = sphere(1.01, 71);
   const auto start = std::chrono::steady_clock::now();

@@ -34,6 +34,15 @@ TEST(SheetSoup, clips_along_the_zero_of_the_clearance_and_shares_the_new_points)
   EXPECT_EQ(soup.points.size(), 5u) << "two corners, three cuts; the corners cut away are dropped";
 }
 
+TEST(SheetSoup, welds_equal_positions_and_keeps_the_order_of_the_others) {
+  SheetSoup sheets(one_horizon);
+  sheets.add_sheet(0, {{5, 0, 0}, {1, 0, 0}, {1, 1, 0}}, {{0, 1, 2}});
+  sheets.add_sheet(0, {{1, 1, 0}, {0, 7, 0}, {1, 0, 0}}, {{0, 1, 2}});
+  const TriangleSoup soup = sheets.take_welded();
+  EXPECT_EQ(soup.points, (std::vector<Vec3>{{5, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 7, 0}}));
+  EXPECT_EQ(soup.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 3, 1}}));
+}
+
 TEST(SheetSoup, starts_a_patch_per_sheet) {
   SheetSoup sheets(one_horizon);
   const std::vector<Vec3> points{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};

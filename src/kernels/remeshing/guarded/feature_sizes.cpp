@@ -7,6 +7,11 @@
 
 namespace strataflow {
 
+namespace {
+/// A strip narrower than this share of its edges has triangles with angles far below 30° whatever is done.
+constexpr double hopeless_share = 0.375;
+}  // namespace
+
 FeatureSizes::FeatureSizes(const InputSurfaces& inputs, double reach_m) : inputs_(inputs), reach_m_(reach_m) {
   const StructuralModel& model = inputs.model();
   Box3 box;
@@ -60,7 +65,7 @@ double FeatureSizes::along_border_m(std::uint32_t line, double arc_m, std::uint3
   return least;
 }
 
-double FeatureSizes::gap_m(const Vec3& p, std::uint32_t line, double arc_m) const {
+double FeatureSizes::gap_m(const Vec3& p, std::uint32_t line, double arc_m, double most_share) const {
   double gap = reach_m_;
   Box3 box;
   box.take(p - Vec3{reach_m_, reach_m_, reach_m_});
@@ -72,15 +77,15 @@ double FeatureSizes::gap_m(const Vec3& p, std::uint32_t line, double arc_m) cons
     if (!(d < gap) || !share_a_surface(line, s.line)) return;
     const double whole = length(s.b - s.a);
     const double arc = s.from_m + (whole > 0 ? length(q - s.a) / whole : 0) * (s.to_m - s.from_m);
-    if (d < 0.5 * along_border_m(line, arc_m, s.line, arc)) gap = d;
+    if (d < most_share * along_border_m(line, arc_m, s.line, arc)) gap = d;
   });
   return gap;
 }
 
-double FeatureSizes::at(const GuardedMesh& mesh, std::uint32_t v) const {
+double FeatureSizes::at(const GuardedMesh& mesh, std::uint32_t v, double most_share) const {
   double size = reach_m_;
   const auto look = [&](std::uint32_t line, double arc_m) {
-    size = std::min({size, inputs_.length_m(line), gap_m(mesh.point(v), line, arc_m)});
+    size = std::min({size, inputs_.length_m(line), gap_m(mesh.point(v), line, arc_m, most_share)});
   };
   if (mesh.kind(v) == VertexKind::line) {
     look(mesh.owner(v), mesh.arcs_around(v)[1]);
@@ -101,7 +106,9 @@ void set_graded_sizes(GuardedMesh& mesh, const FeatureSizes& features, const std
     if (!mesh.is_alive_vertex(v)) continue;
     double size = std::numeric_limits<double>::infinity();
     mesh.visit_star(v, [&](std::uint32_t t) { size = std::min(size, surface_size_m[mesh.surface_of(t)]); });
-    if (mesh.kind(v) != VertexKind::surface) size = std::clamp(features.at(mesh, v), smallest_ratio * size, size);
+    if (mesh.kind(v) != VertexKind::surface)
+      if (const double strip = features.strip_m(mesh, v); strip > hopeless_share * smallest_ratio * size)
+        size = std::clamp(2 * strip, smallest_ratio * size, size);
     mesh.set_size_m(v, size);
     front.push_back(v);
   }

@@ -33,6 +33,12 @@ double quality_of(const Vec3& a, const Vec3& b, const Vec3& c) {
   return product > 0 ? std::sqrt(dot(n, n) / product) : 0;
 }
 
+double shape_of(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  const double x = length(ab), y = length(bc), z = length(ca), longest = std::max({x, y, z});
+  return longest > 0 ? 2 * std::numbers::sqrt3 * length(cross(ab, ca)) / (longest * (x + y + z)) : 0;
+}
+
 GuardedMesh::GuardedMesh(const InputSurfaces& inputs, const GuardOptions& options)
     : inputs_(inputs),
       options_(options),
@@ -256,11 +262,6 @@ std::array<double, 3> GuardedMesh::arcs_around(std::uint32_t v) const {
   return {from, here, here + (to - here_again)};
 }
 
-double GuardedMesh::nearest_arc(std::uint32_t v, const Vec3& p) const {
-  const auto [from, here, to] = arcs_around(v);
-  return inputs_.nearest_arc_m(owner_[v], p, from, to);
-}
-
 bool GuardedMesh::line_stays_near(std::uint32_t line, std::uint32_t a, std::uint32_t b) const {
   auto [from, to] = arcs_of_edge(line, a, b);
   const double whole = inputs_.length_m(line);
@@ -306,6 +307,7 @@ std::uint32_t GuardedMesh::new_mark() { return ++mark_; }
 
 void GuardedMesh::begin_change() {
   ++change_;
+  if (change_ % 1024 == 0 && options_.is_cancelled && options_.is_cancelled()) is_stopped_ = true;
   removed_.clear();
   added_.clear();
 }
@@ -313,7 +315,7 @@ void GuardedMesh::begin_change() {
 void GuardedMesh::remove(std::uint32_t t) {
   removed_mark_[t] = change_;
   const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];
-  removed_.push_back({t, quality_of(a, b, c), cross(b - a, c - a)});
+  removed_.push_back({t, quality_of(a, b, c), shape_of(a, b, c), cross(b - a, c - a)});
 }
 
 void GuardedMesh::add(const Triangle& corners, std::uint32_t parent) {
@@ -396,7 +398,7 @@ Verdict GuardedMesh::try_move(std::uint32_t v, const Vec3& to, const ShapeDemand
 }
 
 Verdict GuardedMesh::move_vertex(std::uint32_t v, const Vec3& target, const ShapeDemand& demand) {
-  if (kind_[v] != VertexKind::surface || is_fixed_[v]) return noted(Verdict::fixed);
+  if (is_stopped_ || kind_[v] != VertexKind::surface || is_fixed_[v]) return noted(Verdict::fixed);
   const Vec3 old = points_[v];
   InputSurfaces::Place place{place_[v], target};
   if (const int axis = inputs_.flat_axis(owner_[v]); axis >= 0)
@@ -408,7 +410,7 @@ Verdict GuardedMesh::move_vertex(std::uint32_t v, const Vec3& target, const Shap
 }
 
 Verdict GuardedMesh::slide_vertex(std::uint32_t v, double arc_m, const ShapeDemand& demand) {
-  if (kind_[v] != VertexKind::line || is_fixed_[v]) return noted(Verdict::fixed);
+  if (is_stopped_ || kind_[v] != VertexKind::line || is_fixed_[v]) return noted(Verdict::fixed);
   const auto [from, here, to] = arcs_around(v);
   if (!(from < arc_m && arc_m < to) || arc_m == here) return noted(Verdict::fixed);
   const double whole = inputs_.length_m(owner_[v]), old_arc = arc_m_[v];
@@ -425,7 +427,7 @@ Verdict GuardedMesh::slide_vertex(std::uint32_t v, double arc_m, const ShapeDema
 }
 
 Verdict GuardedMesh::collapse_edge(std::uint32_t gone, std::uint32_t kept, const ShapeDemand& demand) {
-  if (is_fixed_[gone]) return noted(Verdict::fixed);
+  if (is_stopped_ || is_fixed_[gone]) return noted(Verdict::fixed);
   const std::uint32_t line = line_of_edge(gone, kept);
   if (kind_[gone] == VertexKind::line) {
     if (line == no_index) return noted(Verdict::fixed);
@@ -486,6 +488,7 @@ Verdict GuardedMesh::collapse_edge(std::uint32_t gone, std::uint32_t kept, const
 }
 
 Verdict GuardedMesh::split_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand) {
+  if (is_stopped_) return noted(Verdict::fixed);
   begin_change();
   visit_star(a, [&](std::uint32_t t) {
     if (has(triangles_[t], b)) remove(t);
@@ -560,7 +563,7 @@ Verdict GuardedMesh::split_edge(std::uint32_t a, std::uint32_t b, const ShapeDem
 }
 
 Verdict GuardedMesh::flip_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand) {
-  if (line_of_edge(a, b) != no_index) return noted(Verdict::fixed);
+  if (is_stopped_ || line_of_edge(a, b) != no_index) return noted(Verdict::fixed);
   begin_change();
   visit_star(a, [&](std::uint32_t t) {
     if (has(triangles_[t], b)) remove(t);

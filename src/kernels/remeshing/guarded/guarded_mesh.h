@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <vector>
 
@@ -30,11 +31,12 @@ enum class Verdict : std::uint8_t {
 constexpr std::size_t verdict_count = 8;
 
 /// What an operation may do to the triangles it changes. Quality of a triangle: the sine of its smallest angle; its
-/// shortfall: the square of what its quality lacks to that of 35°.
+/// shortfall: the square of what its quality lacks to that of 35°; its shape: shape_of.
 struct ShapeDemand {
   double floor = 0.0;             ///< no triangle below this, unless the worst of the changed ones was no better
   bool must_improve = false;      ///< the sum of shortfalls has to become smaller
   bool must_raise_worst = false;  ///< the worst changed triangle has to become better
+  bool must_raise_mean = false;   ///< the mean shape of the mesh, taken to be 0.95, has to become better
   double longest = std::numeric_limits<double>::infinity();  ///< collapse: new edges, as a multiple of their size,
                                                              ///< unless there are longer ones already
 };
@@ -43,10 +45,14 @@ struct GuardOptions {
   double distance_m = 0;         ///< > 0: how far the input may lie from the mesh
   double turn_angle_deg = 50.0;  ///< (0, 90): how far a triangle may turn away from those it replaces
   double cell_m = 0;             ///< > 0: about the length of edges to come
+  std::function<bool()> is_cancelled = {};  ///< asked now and then; once true every step is refused
 };
 
 /// Sine of the smallest angle, 0 for a triangle without area.
 double quality_of(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// 6 area / (√3 · longest edge · half the perimeter): 1 for equilateral triangles (pellerin2014 §2.9).
+double shape_of(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A conforming non-manifold triangle mesh that can only be changed by steps which keep it valid: the same corners,
 /// lines (contacts and free borders) and surfaces, no improper intersection (decided exactly), every contact edge
@@ -96,9 +102,6 @@ class GuardedMesh {
   std::array<std::uint32_t, 2> line_neighbours(std::uint32_t v) const { return {before_[v], after_[v]}; }
   std::array<double, 3> arcs_around(std::uint32_t v) const;
 
-  /// Where between the neighbours of a line vertex its line comes nearest to p.
-  double nearest_arc(std::uint32_t v, const Vec3& p) const;
-
   /// Moves a surface vertex to the place of its surface near `target`.
   Verdict move_vertex(std::uint32_t v, const Vec3& target, const ShapeDemand& demand);
   /// Moves a line vertex along its line, between its neighbours.
@@ -110,6 +113,9 @@ class GuardedMesh {
   Verdict split_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand);
   /// Replaces an edge inside a surface by the other diagonal of its two triangles.
   Verdict flip_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand);
+
+  /// Whether GuardOptions::is_cancelled was true once.
+  bool is_stopped() const { return is_stopped_; }
 
   /// How often operations ended so, by Verdict.
   const std::array<std::uint64_t, verdict_count>& verdicts() const { return verdicts_; }
@@ -126,7 +132,7 @@ class GuardedMesh {
   };
   struct Removed {
     std::uint32_t triangle = 0;
-    double quality = 0;
+    double quality = 0, shape = 0;
     Vec3 normal;  ///< twice the area long
   };
   struct SurfaceTurn {
@@ -215,6 +221,7 @@ class GuardedMesh {
 
   // The change at hand.
   std::uint32_t change_ = 0, mark_ = 0;
+  bool is_stopped_ = false;
   std::vector<Removed> removed_;
   std::vector<std::uint32_t> removed_mark_, vertex_mark_, seen_mark_, candidates_;
   std::vector<Added> added_;

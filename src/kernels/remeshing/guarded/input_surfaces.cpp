@@ -104,25 +104,6 @@ Vec3 InputSurfaces::point_at(std::uint32_t line, double arc_m) const {
   return q;
 }
 
-double InputSurfaces::nearest_arc_m(std::uint32_t line, const Vec3& p, double from_m, double to_m) const {
-  const double* first = arcs_.data() + first_arc_[line];
-  const double* end = arcs_.data() + first_arc_[line + 1];
-  const double whole = *(end - 1);
-  double best_m = std::numeric_limits<double>::infinity(), best = from_m;
-  for (const double shift : {0.0, whole})
-    for (const double* k = first; k + 1 < end; ++k) {
-      const double low = std::max(from_m, k[0] + shift), high = std::min(to_m, k[1] + shift);
-      if (!(low < high)) continue;
-      const Vec3 a = point_at(line, low), b = point_at(line, high), q = nearest_on_segment(p, a, b);
-      if (const double d = length(q - p); d < best_m) {
-        best_m = d;
-        const double whole_segment = length(b - a);
-        best = whole_segment > 0 ? low + (high - low) * (length(q - a) / whole_segment) : low;
-      }
-    }
-  return best;
-}
-
 double InputSurfaces::deviation_m(std::uint32_t line, double from_m, double to_m, const Vec3& a, const Vec3& b) const {
   const double* first = arcs_.data() + first_arc_[line];
   const double* end = arcs_.data() + first_arc_[line + 1];

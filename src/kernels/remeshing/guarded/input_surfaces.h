@@ -45,8 +45,6 @@ class InputSurfaces {
   /// vertex) from the segment ab.
   double deviation_m(std::uint32_t line, double from_m, double to_m, const Vec3& a, const Vec3& b) const;
 
-  /// The arc position between two others (the second beyond the length, where a closed line goes on) nearest to p.
-  double nearest_arc_m(std::uint32_t line, const Vec3& p, double from_m, double to_m) const;
 
  private:
   Vec3 line_vertex(std::uint32_t line, std::size_t index) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <utility>
 
 #include "base/seed.h"
 
@@ -13,8 +14,8 @@ namespace {
 
 constexpr double sine_20_deg = 0.3420201433256687, sine_30_deg = 0.5;
 constexpr double longest_share = 4.0 / 3, shortest_share = 4.0 / 5;
-constexpr double shape_share =
-    0.8;  ///< of a line vertex's step goes to the shape of triangles, the rest to even spacing
+constexpr double least_gain = 1e-3;  ///< of the loss, for a vertex to move
+constexpr double poor_shape = 0.8;   ///< triangles below it are collapsed or split to raise the mean
 constexpr int most_sweeps = 16;
 
 struct MeasuredEdge {
@@ -63,21 +64,81 @@ Vec3 star_centroid(const GuardedMesh& mesh, std::uint32_t v) {
   return whole > 0 ? p + (1 / (3 * whole)) * sum : p;
 }
 
-/// The mean of the places where v would make each of its triangles equilateral.
-Vec3 equilateral_place(const GuardedMesh& mesh, std::uint32_t v) {
-  Vec3 sum;
-  int count = 0;
-  const Vec3& p = mesh.point(v);
+/// What the triangles around v lack of the best shape, altogether, if v were at p.
+double shape_loss(const GuardedMesh& mesh, std::uint32_t v, const Vec3& p) {
+  double sum = 0;
   mesh.visit_star(v, [&](std::uint32_t t) {
     const Triangle& c = mesh.triangle(t);
     const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
-    const Vec3 a = mesh.point(c[(k + 1) % 3]) - p, b = mesh.point(c[(k + 2) % 3]) - p, n = cross(a, b), along = b - a;
-    const double square = dot(n, n);
-    if (!(square > 0)) return;
-    sum = sum + 0.5 * (a + b) + (0.8660254037844386 / std::sqrt(square)) * cross(n, along);
+    sum += 1 - shape_of(p, mesh.point(c[(k + 1) % 3]), mesh.point(c[(k + 2) % 3]));
+  });
+  return sum;
+}
+
+/// Where a surface vertex should go, along the way on which the loss falls fastest; itself where no step helps.
+Vec3 shapelier_place(const GuardedMesh& mesh, std::uint32_t v) {
+  const Vec3 p = mesh.point(v);
+  Vec3 normal, any;
+  double edge_m = 0;
+  int count = 0;
+  mesh.visit_star(v, [&](std::uint32_t t) {
+    const Triangle& c = mesh.triangle(t);
+    any = mesh.point(c[1]) - mesh.point(c[0]);
+    const Vec3 n = cross(any, mesh.point(c[2]) - mesh.point(c[0]));
+    normal = normal + n;
+    edge_m += std::sqrt(length(n));
     ++count;
   });
-  return count > 0 ? p + (1.0 / count) * sum : p;
+  const double whole = length(normal);
+  if (!(whole > 0)) return p;
+  normal = (1 / whole) * normal;
+  Vec3 x = any - dot(any, normal) * normal;
+  if (!(length(x) > 0)) return p;
+  x = (1 / length(x)) * x;
+  const Vec3 y = cross(normal, x);
+  edge_m /= count;
+  const double h = 1e-3 * edge_m;
+  const double by_x = shape_loss(mesh, v, p + h * x) - shape_loss(mesh, v, p - h * x);
+  const double by_y = shape_loss(mesh, v, p + h * y) - shape_loss(mesh, v, p - h * y), slope = std::hypot(by_x, by_y);
+  if (!(slope > 0)) return p;
+  const Vec3 down = (-by_x / slope) * x + (-by_y / slope) * y;
+  double least = shape_loss(mesh, v, p) * (1 - least_gain);
+  Vec3 best = p;
+  for (double step = 0.2; step > 0.01; step *= 0.5) {
+    const Vec3 q = p + (step * edge_m) * down;
+    if (const double loss = shape_loss(mesh, v, q); loss < least) {
+      least = loss;
+      best = q;
+    } else if (best != p) {
+      break;
+    }
+  }
+  return best;
+}
+
+/// The same of a line vertex: an arc position.
+double shapelier_arc(const GuardedMesh& mesh, std::uint32_t v) {
+  const auto [from, here, to] = mesh.arcs_around(v);
+  const Vec3 p = mesh.point(v);
+  double least = shape_loss(mesh, v, p) * (1 - least_gain), best = here;
+  for (const int side : {0, 1})
+    for (const double share : {0.2, 0.1, 0.05, 0.025}) {
+      const Vec3 end = mesh.point(mesh.line_neighbours(v)[static_cast<std::size_t>(side)]);
+      const double loss = shape_loss(mesh, v, p + share * (end - p));
+      if (!(loss < least)) continue;
+      least = loss;
+      best = here + share * ((side == 0 ? from : to) - here);
+    }
+  return best;
+}
+
+/// Whether an edge is the longest of its triangle: only such an edge is worth a flip.
+bool is_longest(const GuardedMesh& mesh, std::uint32_t t, std::size_t k) {
+  const Triangle& c = mesh.triangle(t);
+  const Vec3 &a = mesh.point(c[k]), &b = mesh.point(c[(k + 1) % 3]), &tip = mesh.point(c[(k + 2) % 3]);
+  const Vec3 ab = b - a, at = tip - a, bt = tip - b;
+  const double square = dot(ab, ab);
+  return square >= dot(at, at) && square >= dot(bt, bt);
 }
 
 /// Sweeps over the living triangles that changed since `since`, trying step(triangle, k) on each edge k until one is
@@ -101,14 +162,6 @@ std::uint64_t sweep_edges(GuardedMesh& mesh, std::uint32_t since, int sweeps, St
     if (now == 0) break;
   }
   return done;
-}
-
-/// Steps of a half, at most three.
-template <class Try>
-bool with_shorter_steps(Try&& attempt) {
-  for (const double share : {1.0, 0.5, 0.25})
-    if (attempt(share) == Verdict::done) return true;
-  return false;
 }
 
 }  // namespace
@@ -147,7 +200,8 @@ std::uint64_t collapse_short_edges(GuardedMesh& mesh) {
 std::uint64_t flip_edges(GuardedMesh& mesh, std::uint32_t since) {
   const ShapeDemand demand{.must_raise_worst = true};
   return sweep_edges(mesh, since, most_sweeps, [&](std::uint32_t t, std::size_t k, std::uint32_t) {
-    return mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand);
+    return is_longest(mesh, t, k) ? mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand)
+                                  : Verdict::shape;
   });
 }
 
@@ -197,17 +251,29 @@ std::uint64_t even_out(GuardedMesh& mesh, std::uint32_t since) {
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive_vertex(v) || mesh.is_fixed(v) || mesh.star_changed_at(v) < since) continue;
     if (mesh.kind(v) == VertexKind::surface) {
-      const Vec3 p = mesh.point(v), step = equilateral_place(mesh, v) - p;
-      if (dot(step, step) < 1e-4 * mesh.size_m(v) * mesh.size_m(v)) continue;
-      done += with_shorter_steps([&](double share) { return mesh.move_vertex(v, p + share * step, demand); });
-    } else {
-      const auto [from, here, to] = mesh.arcs_around(v);
-      const double middle = 0.5 * (from + to), shapely = mesh.nearest_arc(v, equilateral_place(mesh, v));
-      const double step = middle + shape_share * (shapely - middle) - here, start = here;
-      if (std::abs(step) < 1e-2 * mesh.size_m(v)) continue;
-      done += with_shorter_steps([&](double share) { return mesh.slide_vertex(v, start + share * step, demand); });
+      if (const Vec3 place = shapelier_place(mesh, v); place != mesh.point(v))
+        done += mesh.move_vertex(v, place, demand) == Verdict::done;
+    } else if (const double arc = shapelier_arc(mesh, v); arc != mesh.arcs_around(v)[1]) {
+      done += mesh.slide_vertex(v, arc, demand) == Verdict::done;
     }
   }
+  return done;
+}
+
+std::uint64_t raise_mean_shape(GuardedMesh& mesh, std::uint32_t since) {
+  const ShapeDemand demand{.floor = sine_30_deg, .must_raise_mean = true, .longest = 1.8};
+  std::uint64_t done = sweep_edges(mesh, since, 4, [&](std::uint32_t t, std::size_t k, std::uint32_t) {
+    return is_longest(mesh, t, k) ? mesh.flip_edge(mesh.triangle(t)[k], mesh.triangle(t)[(k + 1) % 3], demand)
+                                  : Verdict::shape;
+  });
+  done += sweep_edges(mesh, since, 2, [&](std::uint32_t t, std::size_t k, std::uint32_t) {
+    const Triangle c = mesh.triangle(t);
+    if (shape_of(mesh.point(c[0]), mesh.point(c[1]), mesh.point(c[2])) > poor_shape) return Verdict::fixed;
+    const std::uint32_t a = c[k], b = c[(k + 1) % 3];
+    for (const auto& [gone, kept] : {std::pair{a, b}, std::pair{b, a}})
+      if (mesh.collapse_edge(gone, kept, demand) == Verdict::done) return Verdict::done;
+    return mesh.split_edge(a, b, demand);
+  });
   return done;
 }
 
@@ -287,28 +353,6 @@ std::uint64_t mend_bad_triangles(GuardedMesh& mesh, std::uint32_t since) {
   for (const Bad& b : bad)
     if (mesh.is_alive(b.triangle) && mesh.triangle(b.triangle) == b.corners && mesh.quality(b.triangle) == b.quality)
       done += mend(b);
-  return done;
-}
-
-std::uint64_t move_towards(GuardedMesh& mesh, const std::vector<Vec3>& targets, int rounds) {
-  std::uint64_t done = 0;
-  const ShapeDemand demand{.floor = sine_20_deg};
-  for (int round = 0; round < rounds; ++round) {
-    std::uint64_t now = 0;
-    for (std::uint32_t v = 0; v < targets.size(); ++v) {
-      if (!mesh.is_alive_vertex(v) || mesh.is_fixed(v)) continue;
-      const Vec3 p = mesh.point(v), step = targets[v] - p;
-      if (dot(step, step) < 1e-8 * mesh.size_m(v) * mesh.size_m(v)) continue;
-      now += with_shorter_steps([&](double share) {
-        return mesh.kind(v) == VertexKind::surface
-                   ? mesh.move_vertex(v, p + share * step, demand)
-                   : mesh.slide_vertex(v, mesh.nearest_arc(v, p + share * step), demand);
-      });
-    }
-    done += now;
-    if (now == 0 || round + 1 == rounds) break;
-    done += flip_edges(mesh, 0);
-  }
   return done;
 }
 

@@ -55,11 +55,12 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
   for (const Vec3& p : model.points) box.take(p);
   GuardedMesh mesh(inputs, {.distance_m = options.distance_ratio * box.diagonal_m(),
                             .turn_angle_deg = options.turn_angle_deg,
-                            .cell_m = *std::min_element(size_m.begin(), size_m.end())});
+                            .cell_m = *std::min_element(size_m.begin(), size_m.end()),
+                            .is_cancelled = options.is_cancelled});
   const FeatureSizes features(inputs, *std::max_element(size_m.begin(), size_m.end()));
 
   RemeshGuardedReport report;
-  for (std::int64_t round = 0; round < options.rounds; ++round) {
+  for (std::int64_t round = 0; round < options.rounds && !mesh.is_stopped(); ++round) {
     set_graded_sizes(mesh, features, size_m, options.smallest_size_ratio, options.size_growth_ratio);
     report.collapses += collapse_short_edges(mesh);
     report.flips += flip_edges(mesh);
@@ -68,7 +69,7 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
     if (round == 0) report.moves += shake(mesh, shaken_share);
     // Regular vertices first, the best angles last.
     const bool is_last = round + 1 == options.rounds;
-    for (std::uint32_t sweep = 0, since = 0; sweep < 3; ++sweep) {
+    for (std::uint32_t sweep = 0, since = 0; sweep < 2; ++sweep) {
       const std::uint32_t start = mesh.step_count() + 1;
       report.flips += is_last ? flip_edges(mesh, since) : even_valences(mesh, since);
       report.moves += even_out(mesh, since);
@@ -76,7 +77,7 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
     }
   }
   std::uint32_t since = 0;
-  for (std::int64_t round = 0; round < options.quality_rounds; ++round) {
+  for (std::int64_t round = 0; round < options.mending_rounds; ++round) {
     const std::uint32_t start = mesh.step_count() + 1;
     const std::uint64_t mended = mend_bad_triangles(mesh, since);
     report.mended += mended;
@@ -84,6 +85,14 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
     since = start;
     if (mended == 0) break;
   }
+  since = 0;
+  for (std::int64_t round = 0; round < options.shape_rounds; ++round) {
+    const std::uint32_t start = mesh.step_count() + 1;
+    report.moves += even_out(mesh, since);
+    report.mended += raise_mean_shape(mesh, since);
+    since = start;
+  }
+  if (mesh.is_stopped()) return Failure{FailureCode::cancelled, "remeshing was stopped", "run it again"};
   report.verdicts = mesh.verdicts();
   const std::vector<std::uint32_t> order = mesh.triangles_in_order();
   const double sine_5_deg = std::sin(5 * std::numbers::pi / 180);

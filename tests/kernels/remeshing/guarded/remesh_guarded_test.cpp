@@ -100,6 +100,15 @@ TEST(RemeshGuarded, makes_good_triangles_of_a_faulted_reference_model) {
     EXPECT_EQ(bad.reason, BadTriangleReason::touches_small_feature);
 }
 
+TEST(RemeshGuarded, stops_when_asked_to) {
+  int asked = 0;
+  const auto result = remesh_guarded(built(support::layered_box(6)),
+                                     {.target_edge_length_m = 0.4, .is_cancelled = [&] { return ++asked > 3; }});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.failure().code, FailureCode::cancelled);
+  EXPECT_EQ(asked, 4) << "nothing is tried any more";
+}
+
 TEST(RemeshGuarded, refuses_options_out_of_their_domain) {
   const StructuralModel model = built(support::standing_sheet());
   for (const RemeshGuardedOptions& options :
@@ -133,8 +142,8 @@ TEST(RemeshGuarded, keeps_cloudspin_whole) {
   const StructuralModel after = built(result->soup);
   support::expect_same_structure(before, after);
   const TriangleQualityReport quality = analyze_triangles(after.points, after.triangles);
-  EXPECT_LT(quality.angles_below_30_ratio, 0.015);
-  EXPECT_GT(quality.mean_quality, 0.87);
+  EXPECT_LT(quality.angles_below_30_ratio, 0.01);
+  EXPECT_GT(quality.mean_quality, 0.895);
   for (const BadTriangle& bad : result->report.bad_triangles)
     EXPECT_EQ(bad.reason, BadTriangleReason::touches_small_feature) << bad.triangle;
 }

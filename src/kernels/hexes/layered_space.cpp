@@ -1,0 +1,93 @@
+#include "kernels/hexes/layered_space.h"
+
+#include <algorithm>
+
+#include "kernels/hexes/plan_lines.h"
+#include "kernels/hexes/refine_tets.h"
+#include "kernels/hexes/verticalise.h"
+
+namespace strataflow {
+namespace {
+
+double six_volumes(const std::vector<Vec3>& p, const Tet& t) {
+  return dot(p[t[1]] - p[t[0]], cross(p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]));
+}
+
+/// The failure, if too much is flipped.
+Result<void> judge_flips(const LayeredSpace& space) {
+  constexpr double tolerated_ratio = 1e-4;
+  double all = 0, flipped = 0;
+  for (const Tet& tet : space.model.tets) all += six_volumes(space.model.points, tet);
+  std::vector<double> by_region;
+  for (const std::uint32_t t : space.flipped) {
+    if (t >= space.layers.model_tets) continue;
+    const double volume = six_volumes(space.model.points, space.model.tets[t]);
+    const auto region = static_cast<std::size_t>(std::max(0, space.model.region[t]));
+    if (by_region.size() <= region) by_region.resize(region + 1, 0);
+    by_region[region] += volume;
+    flipped += volume;
+  }
+  if (!(flipped > tolerated_ratio * all)) return {};
+  const auto worst = static_cast<std::size_t>(std::max_element(by_region.begin(), by_region.end()) - by_region.begin());
+  return Failure{FailureCode::geometry_failed,
+                 std::to_string(space.flipped.size()) + " tetrahedra turn over between the horizons, most of them in " +
+                     (worst < space.model.region_names.size() ? space.model.region_names[worst]
+                                                              : "region " + std::to_string(worst)),
+                 "mesh this region finer, or leave out the horizon that overturns"};
+}
+
+}  // namespace
+
+Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels levels, std::vector<Vec3> plan,
+                                         const LayerOptions& options) {
+  constexpr int rounds = 6;
+  LayeredSpace space;
+  space.model = std::move(model);
+  space.levels = std::move(levels);
+  space.plan = std::move(plan);
+  std::size_t split = 0;
+  for (int round = 0;; ++round) {
+    Result<StratigraphicTets> layers = find_stratigraphic_function(space.model, space.levels, options);
+    if (!layers) return layers.failure();
+    space.layers = std::move(*layers);
+    space.flipped = flipped_in_layers(space.layers, space.plan);
+    if (space.flipped.empty() || round == rounds) break;
+    const std::size_t count =
+        split_flat_diagonals(space.model, space.levels, space.plan, space.layers, space.flipped);
+    if (count == 0) break;
+    split += count;
+    split_level_chords(space.model, space.levels, &space.plan);
+  }
+  if (split > 0)
+    space.changes.push_back({"split_flat_tetrahedra", std::to_string(split) + " edges", "flat between horizons"});
+  if (!space.flipped.empty())
+    space.changes.push_back(
+        {"flat_tetrahedra", std::to_string(space.flipped.size()) + " tetrahedra", "left aside when lifting"});
+  if (const Result<void> judged = judge_flips(space); !judged) return judged.failure();
+  return space;
+}
+
+Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
+  Result<LabelledTets> tets = label_tets(mesh, options.drop_alignment);
+  if (!tets) return tets.failure();
+  Result<StratigraphicLevels> levels = find_stratigraphic_levels(*tets);
+  if (!levels) return levels.failure();
+  split_level_chords(*tets, *levels);
+  if (!stands_upright(*tets)) {
+    split_wall_chords(*tets, *levels);
+    split_level_chords(*tets, *levels);
+    separate_walls(*tets, *levels);
+  }
+  Result<UprightPlan> upright = verticalise(*tets, {options.untangling_steps});
+  if (!upright) return upright.failure();
+  std::vector<Polyline> lines = plan_lines(*tets, *upright, options.follow_horizon_lines);
+  Result<LayeredSpace> space =
+      build_layered_space(std::move(*tets), std::move(*levels), std::move(upright->plan), options.layers);
+  if (!space) return space;
+  space->lines = std::move(lines);
+  space->turned_over_at_first = upright->flipped_by_linear;
+  space->untangling_steps = upright->untangling_steps;
+  return space;
+}
+
+}  // namespace strataflow

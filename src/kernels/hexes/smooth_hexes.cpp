@@ -1,0 +1,222 @@
+#include "kernels/hexes/smooth_hexes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "graph/parallel/parallel_map.h"
+#include "kernels/quality/cell_shape.h"
+#include "kernels/quality/nearest_triangle.h"
+#include "kernels/topology/sorted_unique.h"
+
+namespace strataflow {
+namespace {
+
+/// The point of a triangle nearest to p.
+Vec3 nearest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 n = cross(b - a, c - a);
+  if (dot(n, cross(b - a, p - a)) >= 0 && dot(n, cross(c - b, p - b)) >= 0 && dot(n, cross(a - c, p - c)) >= 0)
+    return p - (dot(n, p - a) / dot(n, n)) * n;
+  Vec3 best = a;
+  for (const auto& [from, to] : {std::pair{a, b}, std::pair{b, c}, std::pair{c, a}}) {
+    const Vec3 along = to - from;
+    const Vec3 q = from + std::clamp(dot(p - from, along) / dot(along, along), 0.0, 1.0) * along;
+    if (length(q - p) < length(best - p)) best = q;
+  }
+  return best;
+}
+
+class HexSmoother {
+ public:
+  HexSmoother(ExtrudedHexes& hexes, const LayeredSpace& space, const SmoothHexesOptions& options)
+      : mesh_(hexes.grid.mesh), hexes_(hexes), space_(space), options_(options) {}
+
+  HexSmoothing smooth() {
+    find_cells_around();
+    find_freedom();
+    find_colours();
+    HexSmoothing result;
+    result.min_before = worst();
+    for (; result.sweeps < options_.sweeps; ++result.sweeps) {
+      std::uint64_t moved = 0;
+      for (const std::vector<std::uint32_t>& colour : colours_) {
+        const std::vector<Vec3> places = parallel_map(
+            colour.size(), [&](std::size_t i) { return better_place(colour[i]); }, 32);
+        for (std::size_t i = 0; i < colour.size(); ++i) {
+          if (mesh_.points[colour[i]] == places[i]) continue;
+          mesh_.points[colour[i]] = places[i];
+          ++moved;
+        }
+      }
+      result.moves += moved;
+      if (moved == 0) break;
+    }
+    result.min_after = worst();
+    return result;
+  }
+
+ private:
+  bool has_volume(std::size_t cell) const { return is_full_[cell] != 0; }
+
+  std::array<Vec3, 8> corners(std::size_t cell) const {
+    std::array<Vec3, 8> p;
+    for (std::size_t k = 0; k < 8; ++k) p[k] = mesh_.points[mesh_.cell_vertices[8 * cell + k]];
+    return p;
+  }
+
+  void find_cells_around() {
+    first_.assign(mesh_.points.size() + 1, 0);
+    for (const std::uint32_t v : mesh_.cell_vertices) ++first_[v + 1];
+    for (std::size_t v = 0; v < mesh_.points.size(); ++v) first_[v + 1] += first_[v];
+    corners_.resize(mesh_.cell_vertices.size());
+    std::vector<std::uint32_t> next = first_;
+    for (std::uint32_t i = 0; i < mesh_.cell_vertices.size(); ++i) corners_[next[mesh_.cell_vertices[i]]++] = i;
+    is_full_ = parallel_map(
+        mesh_.cell_count(),
+        [&](std::size_t c) -> char {
+          const std::array<Vec3, 8> p = corners(c);
+          for (std::size_t k = 0; k < 4; ++k)
+            if (!(length(p[4 + k] - p[k]) > 0)) return 0;
+          return 1;
+        },
+        1024);
+  }
+
+  /// Per vertex: −2 fixed, −1 free, otherwise the entity it slides on.
+  void find_freedom() {
+    freedom_.assign(mesh_.points.size(), -1);
+    std::vector<char> is_on_feature(hexes_.grid.plan.points.size(), 0);
+    for (const FeatureEdge& edge : hexes_.grid.plan.edges) is_on_feature[edge.a] = is_on_feature[edge.b] = 1;
+    for (std::size_t c = 0; c < mesh_.cell_count(); ++c)
+      for (std::size_t k = 0; k < 8; ++k)
+        if (!has_volume(c) || is_on_feature[hexes_.grid.plan.quads[hexes_.grid.cell_column[c]][k % 4]])
+          freedom_[mesh_.cell_vertices[8 * c + k]] = -2;
+    for (const MeshFacet& facet : mesh_.facets) {
+      const auto entity = static_cast<std::int32_t>(facet.surface);
+      for (const std::uint32_t v : facet.vertices) {
+        if (v == no_index) continue;
+        std::int32_t& freedom = freedom_[v];
+        freedom = freedom == -1 || freedom == entity ? entity : -2;
+      }
+    }
+    surfaces_.resize(space_.model.entities.size());
+    for (const std::int32_t freedom : freedom_) {
+      if (freedom < 0 || surfaces_[static_cast<std::size_t>(freedom)].nearest) continue;
+      Surface& surface = surfaces_[static_cast<std::size_t>(freedom)];
+      for (const SheetFacet& facet : space_.model.facets)
+        if (facet.entity == static_cast<std::uint32_t>(freedom) && facet.kind != SheetKind::fault)
+          surface.triangles.push_back(facet.vertices);
+      surface.nearest = std::make_unique<NearestTriangle>(TriangleMesh{space_.model.points, surface.triangles});
+    }
+  }
+
+  /// Vertices of one colour share no cell.
+  void find_colours() {
+    std::vector<std::uint32_t> colour(mesh_.points.size(), no_index);
+    std::vector<std::uint32_t> taken;
+    for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
+      if (freedom_[v] == -2) continue;
+      taken.clear();
+      for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
+        for (std::uint32_t k = 0; k < 8; ++k) {
+          const std::uint32_t other = colour[mesh_.cell_vertices[corners_[i] / 8 * 8 + k]];
+          if (other != no_index) taken.push_back(other);
+        }
+      taken = sorted_unique(std::move(taken));
+      std::uint32_t mine = 0;
+      while (mine < taken.size() && taken[mine] == mine) ++mine;
+      colour[v] = mine;
+      if (colours_.size() <= mine) colours_.resize(mine + 1);
+      colours_[mine].push_back(v);
+    }
+  }
+
+  double quality_at(std::uint32_t v, const Vec3& place) const {
+    double least = 1;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      std::array<Vec3, 8> p = corners(corners_[i] / 8);
+      p[corners_[i] % 8] = place;
+      least = std::min(least, scaled_jacobian(p));
+    }
+    return least;
+  }
+
+  Vec3 held(std::uint32_t v, const Vec3& place) const {
+    if (freedom_[v] < 0) return place;
+    const Surface& surface = surfaces_[static_cast<std::size_t>(freedom_[v])];
+    const Triangle& t = surface.triangles[surface.nearest->nearest(place).triangle];
+    return nearest_point(place, space_.model.points[t[0]], space_.model.points[t[1]], space_.model.points[t[2]]);
+  }
+
+  /// The best of: some way to the mean of the neighbours, and a little along each edge.
+  Vec3 better_place(std::uint32_t v) const {
+    const Vec3 from = mesh_.points[v];
+    double best = quality_at(v, from);
+    if (best >= options_.below_quality) return from;
+    std::vector<std::uint32_t> ends;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
+      for (const CornerFrame& frame : shape_of(CellType::hexahedron).corners)
+        if (frame.corner == corners_[i] % 8)
+          for (const std::uint8_t end : frame.ends) ends.push_back(mesh_.cell_vertices[corners_[i] / 8 * 8 + end]);
+    ends = sorted_unique(std::move(ends));
+    Vec3 mean;
+    for (const std::uint32_t end : ends) mean = mean + (1.0 / static_cast<double>(ends.size())) * mesh_.points[end];
+    Vec3 place = from;
+    const auto offer = [&](const Vec3& candidate) {
+      const Vec3 at = held(v, candidate);
+      const double quality = quality_at(v, at);
+      if (!(quality > best + 1e-9)) return;
+      best = quality;
+      place = at;
+    };
+    for (const double share : {1.0, 0.5, 0.25}) offer(from + share * (mean - from));
+    for (const std::uint32_t end : ends)
+      for (const double share : {0.2, 0.05, -0.05}) offer(from + share * (mesh_.points[end] - from));
+    return place;
+  }
+
+  double worst() const {
+    const std::vector<double> quality = parallel_map(
+        mesh_.cell_count(), [&](std::size_t c) { return has_volume(c) ? scaled_jacobian(corners(c)) : 1.0; }, 1024);
+    return quality.empty() ? 0 : *std::min_element(quality.begin(), quality.end());
+  }
+
+  struct Surface {
+    std::vector<Triangle> triangles;
+    std::unique_ptr<NearestTriangle> nearest;
+  };
+
+  VolumeMesh& mesh_;
+  const ExtrudedHexes& hexes_;
+  const LayeredSpace& space_;
+  const SmoothHexesOptions& options_;
+  std::vector<std::uint32_t> first_, corners_;  // per vertex: 8·cell + corner
+  std::vector<char> is_full_;                   // per cell: no vertical edge without length
+  std::vector<std::int32_t> freedom_;
+  std::vector<Surface> surfaces_;               // per entity
+  std::vector<std::vector<std::uint32_t>> colours_;
+};
+
+}  // namespace
+
+double scaled_jacobian(const std::array<Vec3, 8>& corners) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CornerFrame& frame : shape_of(CellType::hexahedron).corners) {
+    const Vec3 a = corners[frame.ends[0]] - corners[frame.corner], b = corners[frame.ends[1]] - corners[frame.corner],
+               c = corners[frame.ends[2]] - corners[frame.corner];
+    const double lengths = length(a) * length(b) * length(c);
+    least = std::min(least, lengths > 0 ? dot(a, cross(b, c)) / lengths : 0.0);
+  }
+  return least;
+}
+
+Result<HexSmoothing> smooth_hexes(ExtrudedHexes& hexes, const LayeredSpace& space, const SmoothHexesOptions& options) {
+  if (options.sweeps < 0 || !(options.below_quality >= 0 && options.below_quality <= 1))
+    return Failure{FailureCode::invalid_options, "sweeps must be ≥ 0 and below_quality in [0, 1]", "use 10 and 0.6"};
+  const HexSmoothing result = HexSmoother(hexes, space, options).smooth();
+  judge_cells(hexes);
+  return result;
+}
+
+}  // namespace strataflow

@@ -1,0 +1,163 @@
+#include "kernels/hexes/verticalise.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "graph/parallel/parallel_map.h"
+#include "kernels/adapters/cgal/exact_predicates.h"
+#include "kernels/hexes/conjugate_gradients.h"
+#include "kernels/hexes/gravity_field.h"
+#include "kernels/hexes/untangle_plan.h"
+#include "kernels/hexes/upright_system.h"
+
+namespace strataflow {
+namespace {
+
+/// Tetrahedra that are not positive in (u, v, z), exactly.
+std::vector<std::uint32_t> turned_over(const LabelledTets& tets, const std::vector<Vec3>& plan) {
+  const std::vector<char> is_over = parallel_map(
+      tets.tets.size(),
+      [&](std::size_t t) -> char {
+        std::array<Vec3, 4> p;
+        for (std::size_t k = 0; k < 4; ++k) {
+          p[k] = plan[tets.tets[t][k]];
+          p[k].z = tets.points[tets.tets[t][k]].z;
+        }
+        return orientation_3d(p[0], p[1], p[2], p[3]) <= 0;
+      },
+      1024);
+  std::vector<std::uint32_t> over;
+  for (std::uint32_t t = 0; t < is_over.size(); ++t)
+    if (is_over[t]) over.push_back(t);
+  return over;
+}
+
+/// Σ |t| ‖∇U − I‖²: the matrix of both coordinates and their right-hand sides (2.4).
+struct LinearDeformation {
+  std::vector<MatrixEntry> matrix;  ///< without the pin
+  std::array<std::vector<double>, 2> right;
+};
+
+LinearDeformation linear_deformation(const LabelledTets& tets, const UprightSystem& system,
+                                     const std::vector<TetGradients>& gradients) {
+  LinearDeformation linear;
+  for (auto& side : linear.right) side.assign(system.unknown_count, 0);
+  for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {
+    const TetGradients& tet = gradients[t];
+    for (std::size_t i = 0; i < 4; ++i) {
+      const std::uint32_t p = tets.tets[t][i];
+      for (std::uint32_t s = system.first[p]; s < system.first[p + 1]; ++s) {
+        const UprightSystem::Share& row = system.shares[s];
+        linear.right[0][row.unknown] += row.weight * tet.volume_m3 * tet.gradient[i].x;
+        linear.right[1][row.unknown] += row.weight * tet.volume_m3 * tet.gradient[i].y;
+        for (std::size_t j = 0; j < 4; ++j) {
+          const std::uint32_t q = tets.tets[t][j];
+          for (std::uint32_t r = system.first[q]; r < system.first[q + 1]; ++r) {
+            const UprightSystem::Share& column = system.shares[r];
+            if (column.unknown > row.unknown) continue;
+            linear.matrix.push_back({row.unknown, column.unknown,
+                                     row.weight * column.weight * tet.volume_m3 * dot(tet.gradient[i], tet.gradient[j])});
+          }
+        }
+      }
+    }
+  }
+  return linear;
+}
+
+/// The wall with most tetrahedra turned over around it.
+std::string worst_wall(const LabelledTets& tets, const WallSheets& sheets, const std::vector<std::uint32_t>& over) {
+  std::vector<std::uint32_t> count(tets.entities.size(), 0);
+  for (const std::uint32_t t : over)
+    for (const std::uint32_t p : tets.tets[t])
+      for (const std::uint32_t sheet : sheets.sheets_at(p)) ++count[sheets.sheet_entity[sheet]];
+  const auto worst = std::max_element(count.begin(), count.end());
+  return *worst == 0 ? "no fault" : tets.entities[static_cast<std::size_t>(worst - count.begin())].name;
+}
+
+}  // namespace
+
+bool stands_upright(const LabelledTets& tets) {
+  return std::all_of(tets.facets.begin(), tets.facets.end(), [&](const SheetFacet& facet) {
+    if (facet.kind != SheetKind::side && !(facet.kind == SheetKind::fault && facet.is_aligned)) return true;
+    const auto& [a, b, c] = facet.vertices;
+    const Vec3 n = cross(tets.points[b] - tets.points[a], tets.points[c] - tets.points[a]);
+    return std::abs(n.z) <= 1e-9 * length(n);
+  });
+}
+
+Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptions& options) {
+  if (options.untangling_steps < 0)
+    return Failure{FailureCode::invalid_options, "untangling_steps must not be negative", "use 600"};
+  UprightPlan upright;
+  upright.plan = tets.points;
+  for (Vec3& p : upright.plan) p.z = 0;
+  upright.sheets = find_wall_sheets(tets);
+  upright.is_identity = stands_upright(tets);
+  if (upright.is_identity) {
+    upright.traced = trace_walls(tets, upright.sheets, std::vector<Vec3>(tets.tets.size(), Vec3{0, 0, -1}));
+    return upright;
+  }
+  if (const Result<void> checked = check_walls(tets, upright.sheets); !checked) return checked.failure();
+  upright.traced = trace_walls(tets, upright.sheets, gravity_field(tets));
+  const UprightSystem system = substitute(tets.points.size(), upright.traced.constraints);
+  const std::vector<TetGradients> gradients = tet_gradients(tets);
+  LinearDeformation linear = linear_deformation(tets, system, gradients);
+  // One unknown is pinned where it is: the matrix knows nothing of translations.
+  const Vec3 pin = tets.points[system.point_of[0]];
+  std::vector<MatrixEntry> pinned;
+  pinned.reserve(linear.matrix.size());
+  double scale = 0;
+  for (const MatrixEntry& entry : linear.matrix) {
+    if (entry.row == 0 && entry.column == 0) scale += entry.value;
+    if (entry.column != 0) {
+      pinned.push_back(entry);
+    } else if (entry.row != 0) {
+      linear.right[0][entry.row] -= entry.value * pin.x;
+      linear.right[1][entry.row] -= entry.value * pin.y;
+    }
+  }
+  pinned.push_back({0, 0, scale});
+  linear.right[0][0] = scale * pin.x;
+  linear.right[1][0] = scale * pin.y;
+  const auto solved = solve_symmetric(system.unknown_count, pinned, {linear.right[0], linear.right[1]});
+  if (!solved) return solved.failure();
+  std::vector<double> u = (*solved)[0], v = (*solved)[1];
+  const auto place = [&] {
+    const std::vector<double> all_u = system.expanded(u), all_v = system.expanded(v);
+    for (std::size_t p = 0; p < upright.plan.size(); ++p) upright.plan[p] = {all_u[p], all_v[p], 0};
+  };
+  place();
+  std::vector<std::uint32_t> over = turned_over(tets, upright.plan);
+  upright.flipped_by_linear = static_cast<std::uint32_t>(over.size());
+  if (!over.empty()) {
+    UntangledPlan untangled = untangle_plan(tets, system, gradients, pinned, std::move(u), std::move(v),
+                                            static_cast<std::size_t>(options.untangling_steps));
+    u = std::move(untangled.u);
+    v = std::move(untangled.v);
+    upright.untangling_steps = untangled.steps;
+    place();
+    over = turned_over(tets, upright.plan);
+    if (!over.empty()) {
+      const std::string name = worst_wall(tets, upright.sheets, over);
+      return Failure{FailureCode::geometry_failed,
+                     std::to_string(over.size()) + " tetrahedra stay turned over when faults are set upright, most at " +
+                         name,
+                     "leave it out with drop_alignment = [\"" + name + "\"], or mesh finer"};
+    }
+  }
+  upright.smallest_determinant = std::numeric_limits<double>::infinity();
+  for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {
+    Vec3 du, dv;
+    for (std::size_t k = 0; k < 4; ++k) {
+      du = du + upright.plan[tets.tets[t][k]].x * gradients[t].gradient[k];
+      dv = dv + upright.plan[tets.tets[t][k]].y * gradients[t].gradient[k];
+    }
+    upright.smallest_determinant = std::min(upright.smallest_determinant, du.x * dv.y - du.y * dv.x);
+  }
+  return upright;
+}
+
+}  // namespace strataflow

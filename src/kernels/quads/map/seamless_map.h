@@ -1,0 +1,26 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "kernels/quads/field/frame_field.h"
+#include "kernels/quads/map/optimise_map.h"
+
+namespace strataflow {
+
+struct FieldAndMap {
+  FrameFieldResult field;
+  OptimisedMap map;
+  std::vector<std::string> retries;  ///< why earlier fields were given up; empty when the first one did
+  template <class A>
+  void archive(A& a) {
+    a(field, map, retries);
+  }
+};
+
+/// A frame field and the valid seamless map that follows it (coudert2024 S5, S35 first line). Where a field's map stays
+/// folded or winds, fields with more and with fewer singular points are tried, in a fixed order. Fails with the reason
+/// of the first attempt.
+Result<FieldAndMap> compute_seamless_map(const FeatureMesh& mesh, const FrameFieldOptions& field_options = {},
+                                         const FoldoverFreeOptions& map_options = {});
+
+}  // namespace strataflow

@@ -1,0 +1,18 @@
+#pragma once
+#include "kernels/quads/map/seamless_map.h"
+#include "stages/frame_field_stage.h"
+
+namespace strataflow {
+
+/// A map along the field, without folds, with every feature on an isoline (coudert2024 S34, S35, S44). Where the field's
+/// map stays folded, fields with more and with fewer singular points are tried; the output holds the field it follows.
+struct SeamlessMap {
+  static constexpr std::string_view name = "seamless_map";
+  static constexpr int version = 1;
+  FrameFieldStageOptions options;
+
+  Result<Attempt<FieldAndMap>> operator()(const FeatureMesh& mesh, const Attempt<FrameFieldResult>& field,
+                                          StageContext& context) const;
+};
+
+}  // namespace strataflow

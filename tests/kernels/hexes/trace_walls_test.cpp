@@ -1,0 +1,48 @@
+#include "kernels/hexes/trace_walls.h"
+
+#include <gtest/gtest.h>
+
+#include "kernels/hexes/gravity_field.h"
+#include "kernels/hexes/tet_models.h"
+
+namespace strataflow {
+namespace {
+
+TEST(TraceWalls, leads_every_point_of_a_plane_fault_down_its_dip) {  // T4: weights are those of the projection
+  support::LevelledTets model = support::levelled(support::filled(*dipping_faults(std::array{0.57735026918962576}, 15), 80));
+  separate_walls(model.tets, model.levels);
+  const LabelledTets& tets = model.tets;
+  const WallSheets sheets = find_wall_sheets(tets);
+  const TracedWalls traced = trace_walls(tets, sheets, gravity_field(tets));
+  EXPECT_EQ(traced.stuck, 0u);
+  std::size_t on_fault = 0;
+  for (const UprightConstraint& c : traced.constraints) {
+    if (tets.entities[sheets.sheet_entity[c.sheet]].name != "F1" || sheets.sheets_at(c.point).size() > 1) continue;
+    const Vec3 foot = c.weight * tets.points[c.org] + (1 - c.weight) * tets.points[c.dest];
+    ++on_fault;
+    EXPECT_EQ(foot.z, 0);
+    EXPECT_NEAR(foot.y, tets.points[c.point].y, 0.05);
+  }
+  EXPECT_GT(on_fault, 50u);
+  for (const TracedWalls::LowerEdge& low : traced.lower_edges)
+    for (const std::uint32_t p : sheets.edges[low.edge].points) EXPECT_EQ(tets.points[p].z, 0);
+}
+
+TEST(TraceWalls, leads_points_where_two_walls_meet_down_their_line) {
+  const Result<LabelledTets> tets = label_tets(support::filled(*vertical_faults(2, true), 100));
+  ASSERT_TRUE(tets);
+  const WallSheets sheets = find_wall_sheets(*tets);
+  const TracedWalls traced = trace_walls(*tets, sheets, std::vector<Vec3>(tets->tets.size(), Vec3{0, 0, -1}));
+  std::size_t corners = 0;
+  for (const UprightConstraint& c : traced.constraints) {
+    const Vec3 foot = c.weight * tets->points[c.org] + (1 - c.weight) * tets->points[c.dest] - tets->points[c.point];
+    EXPECT_LT(std::hypot(foot.x, foot.y), 1e-6);
+    if (sheets.sheets_at(c.point).size() < 2) continue;
+    ++corners;
+    EXPECT_EQ(c.org, c.dest);
+  }
+  EXPECT_GT(corners, 10u);
+}
+
+}  // namespace
+}  // namespace strataflow

@@ -1,0 +1,162 @@
+#include "kernels/hybrid/fill_hybrid.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "base/archive.h"
+#include "kernels/hybrid/shared_surfaces.h"
+#include "kernels/quality/analyze_volume_mesh.h"
+#include "kernels/quality/check_mesh_against_model.h"
+#include "kernels/reference_models/generate_reference_model.h"
+#include "plate.h"
+#include "support/schedules.h"
+
+namespace strataflow {
+namespace {
+
+std::filesystem::path tet_worker() { return std::filesystem::path(STRATAFLOW_BINARY_DIR) / "bin" / "tet_worker"; }
+
+Result<HybridMesh> filled(const StructuralModel& model, const std::vector<std::uint32_t>& sites,
+                          const FillHybridOptions& options = {}) {
+  return fill_hybrid(model, sites, options, nullptr, tet_worker());
+}
+
+/// Rules H1 to H5 and H7 by kernels that share no code with the mesher.
+void expect_valid(const HybridMesh& hybrid, const StructuralModel& model) {
+  const VolumeQualityReport quality = analyze_volume_mesh(hybrid.mesh);
+  EXPECT_EQ(quality.inverted, 0u);
+  EXPECT_EQ(quality.nonconforming_faces, 0u);
+  EXPECT_EQ(quality.open_boundary_edges, 0u);
+  EXPECT_EQ(quality.hexahedra, 0u);  // H1
+  for (const Violation& violation : check_mesh_against_model(hybrid.mesh, model))
+    ADD_FAILURE() << violation.kind << ": " << violation.what;
+  const HybridReport& report = hybrid.report;
+  EXPECT_EQ(report.cells_from_voronoi + report.cells_from_fill, quality.cells);
+  EXPECT_EQ(
+      report.surface_points + report.layer_points + report.centre_points + report.apex_points + report.fill_points,
+      quality.vertices);  // H8: every vertex has its cause
+  std::uint64_t tetrahedra = 0, pyramids = 0, prisms = 0;
+  for (const HybridRegion& region : report.regions) {
+    tetrahedra += region.tetrahedra;
+    pyramids += region.pyramids;
+    prisms += region.prisms;
+  }
+  EXPECT_EQ(tetrahedra, quality.tetrahedra);
+  EXPECT_EQ(pyramids, quality.pyramids);
+  EXPECT_EQ(prisms, quality.prisms);
+}
+
+StructuralModel remeshed(std::string_view name, std::size_t count, double edge_m) {
+  const StructuralModel model = build_structural_model(*generate_reference_model(name))->model;
+  SharedSitesOptions drawing;
+  drawing.surface_edge_length_m.assign(model.surfaces.size(), edge_m);
+  drawing.thin_ratio = 1;
+  SharedSurfacesOptions options;
+  options.settle.rounds = 2;
+  return remesh_on_shared_sites(model, draw_shared_sites(model, count, drawing), options)->built.model;
+}
+
+TEST(FillHybrid, a_thin_plate_is_prisms_alone) {  // X11
+  const support::Plate plate = support::plate(4, [](double, double) { return 0.2; });
+  const Result<HybridMesh> hybrid = filled(plate.model, plate.sites);
+  ASSERT_TRUE(hybrid) << hybrid.failure().what;
+  expect_valid(*hybrid, plate.model);
+  EXPECT_EQ(hybrid->report.regions[0].prisms, 32u);  // the triangles of one side
+  EXPECT_EQ(hybrid->mesh.cell_count(), 32u);
+  EXPECT_NEAR(hybrid->report.mean_anisotropy_ratio, (2 + std::sqrt(2.0)) / 3 / 0.2, 1e-9);
+}
+
+TEST(FillHybrid, a_wedge_closes_with_pyramids_then_tetrahedra) {  // X11
+  const support::Plate plate = support::plate(3, [](double x, double) { return 0.3 * (3 - x); });
+  for (const std::int64_t layers : {1, 2, 5}) {
+    const Result<HybridMesh> hybrid = filled(plate.model, plate.sites, {.layers_through_thin = layers});
+    ASSERT_TRUE(hybrid) << hybrid.failure().what;
+    expect_valid(*hybrid, plate.model);
+    EXPECT_GT(hybrid->report.regions[0].pyramids, 0u);
+    EXPECT_GT(hybrid->report.regions[0].tetrahedra, 0u);
+    EXPECT_EQ(hybrid->report.cells_from_fill, 0u);
+  }
+}
+
+TEST(FillHybrid, what_has_no_common_sites_is_filled_with_tetrahedra) {
+  support::Plate plate = support::plate(5, [](double, double) { return 0.3; });
+  for (std::size_t p = 0; p < plate.sites.size(); ++p)
+    if (plate.model.points[p].x > 3.5 && plate.model.points[p].z == 0) plate.sites[p] += 1000;
+  for (const std::int64_t layers : {1, 3}) {
+    const Result<HybridMesh> hybrid = filled(plate.model, plate.sites, {.layers_through_thin = layers});
+    ASSERT_TRUE(hybrid) << hybrid.failure().what;
+    expect_valid(*hybrid, plate.model);
+    EXPECT_GT(hybrid->report.cells_from_fill, 0u);
+    EXPECT_GT(hybrid->report.cells_from_voronoi, 30u);
+  }
+  plate.sites.assign(plate.sites.size(), no_index);
+  const Result<HybridMesh> alone = filled(plate.model, plate.sites);
+  ASSERT_TRUE(alone);
+  expect_valid(*alone, plate.model);
+  EXPECT_EQ(alone->report.cells_from_voronoi, 0u);
+}
+
+TEST(FillHybrid, layers_that_pinch_out_and_fold_stay_valid) {
+  const support::Plate plate =
+      support::plate(6, [](double x, double y) { return 0.1 + 0.06 * (x - 3) * (x - 3) + 0.02 * y * x; });
+  for (const std::int64_t layers : {1, 4}) {
+    const Result<HybridMesh> hybrid = filled(plate.model, plate.sites, {.layers_through_thin = layers});
+    ASSERT_TRUE(hybrid) << hybrid.failure().what;
+    expect_valid(*hybrid, plate.model);
+  }
+}
+
+TEST(FillHybrid, prisms_grow_as_sites_fall) {  // X15, of a wedge
+  double last = -1;
+  for (const auto& [count, edge] : {std::pair{1300, 39.0}, std::pair{400, 70.0}, std::pair{150, 115.0}}) {
+    const StructuralModel model = remeshed("wedge", count, edge);
+    const Result<HybridMesh> hybrid = filled(model, sites_of_points(model));
+    ASSERT_TRUE(hybrid) << hybrid.failure().what;
+    expect_valid(*hybrid, model);
+    double prisms = 0, all = 0;
+    for (const HybridRegion& region : hybrid->report.regions) {
+      prisms += region.prism_volume_m3;
+      all += region.volume_m3;
+    }
+    EXPECT_GT(prisms / all, last);
+    last = prisms / all;
+  }
+  EXPECT_GT(last, 0.6);
+}
+
+TEST(FillHybrid, shells_thinner_than_a_cell_are_prisms_alone_and_others_tetrahedra) {  // X15
+  const StructuralModel model = remeshed("nested-spheres", 500, 25.5);
+  const Result<HybridMesh> hybrid = filled(model, sites_of_points(model));
+  ASSERT_TRUE(hybrid) << hybrid.failure().what;
+  expect_valid(*hybrid, model);
+  std::size_t only_prisms = 0, only_tetrahedra = 0;
+  for (const HybridRegion& region : hybrid->report.regions) {
+    only_prisms += region.tetrahedra == 0 && region.pyramids == 0;
+    only_tetrahedra += region.prisms == 0 && region.pyramids == 0;
+  }
+  EXPECT_EQ(only_prisms, 1u);
+  EXPECT_EQ(only_tetrahedra, 2u);
+}
+
+TEST(FillHybrid, is_the_same_on_every_schedule) {
+  const StructuralModel model = remeshed("wedge", 150, 120);
+  const std::vector<std::uint32_t> sites = sites_of_points(model);
+  const Result<HybridMesh> wanted = filled(model, sites, {.layers_through_thin = 2});
+  ASSERT_TRUE(wanted);
+  expect_valid(*wanted, model);
+  support::on_every_schedule(
+      [&](const char* schedule) {
+        EXPECT_EQ(archived(*filled(model, sites, {.layers_through_thin = 2})), archived(*wanted)) << schedule;
+      },
+      1);
+}
+
+TEST(FillHybrid, refuses_no_layers_and_no_region) {
+  const support::Plate plate = support::plate(1, [](double, double) { return 0.2; });
+  EXPECT_EQ(filled(plate.model, plate.sites, {.layers_through_thin = 0}).failure().code, FailureCode::invalid_options);
+  EXPECT_EQ(filled({}, {}).failure().code, FailureCode::invalid_input);
+}
+
+}  // namespace
+}  // namespace strataflow

@@ -1,0 +1,127 @@
+#include "kernels/quads/field/volume_frames.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "base/seed.h"
+#include "support/schedules.h"
+
+namespace strataflow {
+namespace {
+
+/// n × n × m cubes of six tetrahedra each.
+VolumeMesh tetrahedral_box(std::uint32_t n, std::uint32_t m, const std::function<Vec3(double, double, double)>& place) {
+  VolumeMesh mesh;
+  const auto number = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) { return (k * (n + 1) + j) * (n + 1) + i; };
+  for (std::uint32_t k = 0; k <= m; ++k)
+    for (std::uint32_t j = 0; j <= n; ++j)
+      for (std::uint32_t i = 0; i <= n; ++i)
+        mesh.points.push_back(place(static_cast<double>(i) / n, static_cast<double>(j) / n, static_cast<double>(k) / m));
+  for (std::uint32_t k = 0; k < m; ++k)
+    for (std::uint32_t j = 0; j < n; ++j)
+      for (std::uint32_t i = 0; i < n; ++i)
+        for (const auto& order : std::vector<std::array<int, 3>>{{0, 1, 2}, {0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}) {
+          std::array<std::uint32_t, 3> at{i, j, k};
+          std::array<std::uint32_t, 4> tet{number(at[0], at[1], at[2])};
+          for (std::size_t s = 0; s < 3; ++s) {
+            ++at[static_cast<std::size_t>(order[s])];
+            tet[s + 1] = number(at[0], at[1], at[2]);
+          }
+          const Vec3& o = mesh.points[tet[0]];
+          if (dot(cross(mesh.points[tet[1]] - o, mesh.points[tet[2]] - o), mesh.points[tet[3]] - o) < 0) std::swap(tet[1], tet[2]);
+          mesh.add_cell(CellType::tetrahedron, tet.data(), 0);
+        }
+  return mesh;
+}
+
+/// Largest angle, as a sine, between a direction of the frames and the nearest of three given ones.
+double worst_direction(const VolumeFrames& found, const std::array<Vec3, 3>& wanted) {
+  double worst = 0;
+  for (const VolumeFrame& frame : found.frames)
+    for (const Vec3& u : frame) {
+      double least = 2;
+      for (const Vec3& w : wanted) least = std::min(least, length(cross(u, w)) / length(w));
+      worst = std::max(worst, least);
+    }
+  return worst;
+}
+
+/// T19.
+TEST(VolumeFrames, are_constant_in_a_cube_and_in_a_sheared_cube) {
+  const auto cube = compute_volume_frames(tetrahedral_box(3, 3, [](double x, double y, double z) { return Vec3{x, y, z}; }));
+  ASSERT_TRUE(cube);
+  EXPECT_LT(worst_direction(*cube, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}), 1e-6);
+  EXPECT_TRUE(cube->singular.empty());
+  const double shear = 0.5;
+  const auto sheared = compute_volume_frames(
+      tetrahedral_box(3, 3, [&](double x, double y, double z) { return Vec3{x + shear * z, y, z}; }),
+      {.lambda = 0.5, .iterations = 200, .settled_ratio = 1e-7});
+  ASSERT_TRUE(sheared);
+  // Gradients: the normals of the sides.
+  EXPECT_LT(worst_direction(*sheared, {{{1, 0, -shear}, {0, 1, 0}, {0, 0, 1}}}), 0.05);
+  EXPECT_TRUE(sheared->singular.empty());
+}
+
+/// T20: crosses that start at random end at the same energy.
+TEST(VolumeFrames, do_not_depend_on_the_crosses_they_start_from) {
+  const VolumeMesh mesh = tetrahedral_box(3, 3, [](double x, double y, double z) { return Vec3{x + 0.2 * z, y, z}; });
+  const VolumeFrameOptions options{.iterations = 200, .settled_ratio = 1e-7};
+  const auto smooth = compute_volume_frames(mesh, options);
+  RandomStream random(5);
+  std::vector<VolumeFrame> start;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    const Vec3 u{random.unit() - 0.5, random.unit() - 0.5, random.unit() - 0.5}, w{random.unit(), random.unit(), random.unit()};
+    const Vec3 v = cross(u, w);
+    start.push_back({u, v, cross(u, v)});
+  }
+  const auto from_random = compute_volume_frames(mesh, options, start);
+  ASSERT_TRUE(smooth && from_random);
+  EXPECT_NEAR(from_random->energy, smooth->energy, 1e-3 * std::max(1.0, smooth->energy));
+}
+
+/// A cylinder, whose cross field turns around singular curves along its axis.
+TEST(VolumeFrames, find_singular_curves_along_a_cylinder) {
+  const auto cylinder = compute_volume_frames(tetrahedral_box(6, 3, [](double x, double y, double z) {
+    const double u = 2 * x - 1, v = 2 * y - 1;  // a square laid out as a disc
+    return Vec3{u * std::sqrt(1 - v * v / 2), v * std::sqrt(1 - u * u / 2), z};
+  }));
+  ASSERT_TRUE(cylinder);
+  ASSERT_FALSE(cylinder->singular.empty());
+  for (const Polyline& curve : cylinder->singular)
+    for (const Vec3& p : curve.points) EXPECT_LT(std::hypot(p.x, p.y), 0.999);
+}
+
+TEST(VolumeFrames, fix_boundary_normals_and_stay_unit) {
+  const auto twisted = compute_volume_frames(tetrahedral_box(3, 4, [](double x, double y, double z) {
+    const double turn = 0.6 * z, u = x - 0.5, v = y - 0.5;
+    return Vec3{u * std::cos(turn) - v * std::sin(turn), u * std::sin(turn) + v * std::cos(turn), 2 * z};
+  }));
+  ASSERT_TRUE(twisted);
+  for (const VolumeFrame& frame : twisted->frames) {
+    double upright = 0;
+    for (const Vec3& u : frame) {
+      EXPECT_NEAR(length(u), 1, 1e-12);
+      upright = std::max(upright, std::abs(u.z));
+    }
+    EXPECT_GT(upright, 0.95);  // layers stay about parallel to the ends
+  }
+  EXPECT_GT(twisted->smallest_determinant, 0.5);
+}
+
+TEST(VolumeFrames, are_the_same_on_every_schedule_and_refuse_what_is_no_tetrahedral_mesh) {
+  VolumeMesh mesh = tetrahedral_box(2, 2, [](double x, double y, double z) { return Vec3{x + 0.3 * z * z, y, z}; });
+  const VolumeFrameOptions options{.iterations = 3};
+  const auto expected = compute_volume_frames(mesh, options)->frames;
+  support::on_every_schedule(
+      [&](const char* schedule) { EXPECT_EQ(compute_volume_frames(mesh, options)->frames, expected) << schedule; }, 2);
+  std::swap(mesh.cell_vertices[0], mesh.cell_vertices[1]);
+  EXPECT_EQ(compute_volume_frames(mesh).failure().code, FailureCode::invalid_input);
+  mesh.cell_types[0] = CellType::pyramid;
+  EXPECT_EQ(compute_volume_frames(mesh).failure().code, FailureCode::invalid_input);
+  EXPECT_EQ(compute_volume_frames({}).failure().code, FailureCode::invalid_input);
+}
+
+}  // namespace
+}  // namespace strataflow
