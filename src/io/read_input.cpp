@@ -17,6 +17,8 @@
 #include "io/mesh/read_medit.h"
 #include "io/mesh/read_ucd.h"
 #include "io/model_file/read_model_file.h"
+#include "io/simulator/read_grdecl.h"
+#include "io/simulator/read_roff.h"
 #include "io/surface/read_obj.h"
 #include "io/surface/read_off.h"
 #include "io/surface/read_ply.h"
@@ -51,6 +53,8 @@ constexpr std::array formats{
     InputFormat{"inp", "AVS UCD", read_ucd},
     InputFormat{"pol", "lines, 999 between them", read_pol},
     InputFormat{"geo", "Gmsh section", read_geo},
+    InputFormat{"grdecl", "corner-point grid, Eclipse keywords", read_grdecl},
+    InputFormat{"roff", "corner-point grid, ROFF", read_roff},
 };
 
 std::string lower_case(std::string text) {
