@@ -15,7 +15,7 @@ struct GridMapping {
   std::int64_t doublings = 0;
   double energy_before = 0, energy = 0;
   std::string transfer;                     ///< solve or imprint
-  std::vector<std::string> unmet_features;  ///< that no integers could align
+  std::vector<std::string> unmet_features{};  ///< that no integers could align
   template <class A>
   void archive(A& a) {
     a(mesh, map, half_edges, operations, doublings, energy_before, energy, transfer, unmet_features);

@@ -16,6 +16,19 @@ constexpr GaussianInteger operator*(GaussianInteger a, GaussianInteger b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
 constexpr GaussianInteger conj(GaussianInteger a) { return {a.re, -a.im}; }
+/// i to the power of `turns`, times z.
+constexpr GaussianInteger turned(GaussianInteger z, int turns) {
+  switch (turns & 3) {
+    case 1:
+      return {-z.im, z.re};
+    case 2:
+      return {-z.re, -z.im};
+    case 3:
+      return {z.im, -z.re};
+    default:
+      return z;
+  }
+}
 /// Re a · Im b − Im a · Re b: twice the signed area of the triangle (0, a, b).
 constexpr std::int64_t cross(GaussianInteger a, GaussianInteger b) { return a.re * b.im - a.im * b.re; }
 

@@ -11,20 +11,6 @@ namespace strataflow {
 
 __extension__ using Int128 = __int128;
 
-/// i to the power of `turns` times a.
-constexpr GaussianInteger turned(GaussianInteger a, unsigned turns) {
-  switch (turns & 3) {
-    case 1:
-      return {-a.im, a.re};
-    case 2:
-      return {-a.re, -a.im};
-    case 3:
-      return {a.im, -a.re};
-    default:
-      return a;
-  }
-}
-
 /// A grid-preserving map without rounding errors: coordinates are integers in units of 2^−32 of a quad, transitions
 /// are quarter turns and whole quads, and both agree exactly at every corner (coudert2024 R18).
 struct GridMap {

@@ -105,7 +105,7 @@ Result<OptimisedMap> attempt_map(const FeatureMesh& mesh, const FeatureLayout& l
     std::array<Complex, 3> u;
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t place = reduction.place_of[3 * t + k];
-      u[k] = turned({v[2 * place], v[2 * place + 1]}, 4 - reduction.chart[t]);
+      u[k] = turned(std::complex<double>{v[2 * place], v[2 * place + 1]}, 4 - reduction.chart[t]);
       map.uv[3 * t + k] = {u[k].real(), u[k].imag()};
     }
     const Complex a = u[1] - u[0], b = u[2] - u[0];

@@ -10,20 +10,6 @@ namespace strataflow {
 
 __extension__ using WideInteger = __int128;
 
-/// i^turns · z, exactly.
-constexpr GaussianInteger turned(GaussianInteger z, int turns) {
-  switch (turns & 3) {
-    case 1:
-      return {-z.im, z.re};
-    case 2:
-      return {-z.re, -z.im};
-    case 3:
-      return {z.im, -z.re};
-    default:
-      return z;
-  }
-}
-
 /// The axis of a half-edge after its chart was turned.
 constexpr MapAxis turned(MapAxis axis, int turns) {
   if (axis == MapAxis::none || turns % 2 == 0) return axis;

@@ -109,7 +109,7 @@ inline void rechart(MappedMesh& m, std::uint64_t seed, double noise = 0) {
     const int turns = static_cast<int>(random.below(4));
     const std::complex<double> shift(double(random.below(21)) - 10, double(random.below(21)) - 10);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto z = turned({m.map.uv[3 * t + k][0], m.map.uv[3 * t + k][1]}, turns) + shift;
+      const auto z = turned(std::complex<double>{m.map.uv[3 * t + k][0], m.map.uv[3 * t + k][1]}, turns) + shift;
       m.map.uv[3 * t + k] = {z.real() + noise * (random.unit() - 0.5), z.imag() + noise * (random.unit() - 0.5)};
     }
   }

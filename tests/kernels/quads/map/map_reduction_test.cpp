@@ -38,7 +38,7 @@ TEST(MapReduction, any_x_satisfies_seams_and_features_exactly) {
     const std::vector<double> v = reduction->scalars(x);
     const auto at = [&](std::uint32_t corner) {
       const std::uint32_t place = reduction->place_of[corner];
-      return turned({v[2 * place], v[2 * place + 1]}, 4 - reduction->chart[corner / 3]);
+      return turned(std::complex<double>{v[2 * place], v[2 * place + 1]}, 4 - reduction->chart[corner / 3]);
     };
     for (std::uint32_t h = 0; h < p.layout.opposite.size(); ++h) {
       const auto along = at(next_half_edge(h)) - at(h);
@@ -69,7 +69,7 @@ TEST(MapReduction, imposes_integers_with_auxiliary_unknowns_and_finds_contradict
   const std::vector<double> v = reduction->scalars(std::vector<double>(reduction->unknowns, 0.7));
   const auto at = [&](std::uint32_t corner) {
     const std::uint32_t place = reduction->place_of[corner];
-    return turned({v[2 * place], v[2 * place + 1]}, 4 - reduction->chart[corner / 3]);
+    return turned(std::complex<double>{v[2 * place], v[2 * place + 1]}, 4 - reduction->chart[corner / 3]);
   };
   EXPECT_NEAR(std::abs(at(end) - at(h) - 3.0), 0, 1e-12);
   constraints[1] = {{{end, {0, 1}}, {h, {0, -1}}}, {0, 2}};
