@@ -170,7 +170,8 @@ void remesh_by_cells(benchmark::State& state) {
                        sample_sites(model.points, model.triangles, {}, count, 1), {}, {.iterations = 100});
     RemeshAtResolutionOptions options;
     options.merge.merges_linked_corners = options.merge.merges_beyond_two_points = false;
-    options.merge.resolution_m = 20;
+    options.merge.follows_bends = true;
+    options.merge.resolution_m = options.merge.most_move_m = 20;
     options.edge_length_m = cloudspin()->edge_length_m;
     options.reoptimise.lloyd_iterations = 2;
     options.reoptimise.iterations = 6;

@@ -13,6 +13,7 @@
 #include "stages/judge_surfaces_stage.h"
 #include "stages/optimise_sites_stage.h"
 #include "stages/plan_problem_stage.h"
+#include "stages/plan_surfaces_stage.h"
 #include "stages/read_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
@@ -52,7 +53,7 @@ Port<InputData> wire_input(JobWirer& wirer, const Job& job, const JobInput& inpu
   if (input.model)
     return wirer.add("generate/" + *input.model, Generate{{*input.model, input.resolution_m, input.raw_ratio}});
   const std::filesystem::path path = job.input_path(input);
-  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role, input.sticks}, path});
+  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role, input.sticks, input.traces}, path});
 }
 
 /// From surfaces as they were read to surfaces that conform.
@@ -67,18 +68,20 @@ Port<InputData> wire_surfaces(JobWirer& wirer, const Job& job, Port<InputData> s
   return wirer.add("simplify_borders", SimplifyBorders{job.simplify}, sealed);
 }
 
-/// Whether a job makes anything but quads, which stand on curves.
+/// Whether a job makes anything but quads that stand on curves.
 bool needs_model(const Job& job) {
-  return std::any_of(job.output.products.begin(), job.output.products.end(),
-                     [](const std::string& product) { return product != "quads"; });
+  return std::any_of(job.output.products.begin(), job.output.products.end(), [&](const std::string& product) {
+    return product != "quads" || !job.quad.surfaces.empty();
+  });
 }
 
 /// The checked model, the surfaces remeshed if anything stands on them, and the pictures of both.
 void wire_model(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
   const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
-  const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" && job.makes("tets"));
+  const bool remeshes =
+      job.makes("surfaces") || (job.output.from == "surfaces" && (job.makes("tets") || job.makes("hexes") || job.makes("frames")));
   const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") ||
-                              job.makes("hybrid") || remeshes;
+                              job.makes("hybrid") || job.makes("hexes") || job.makes("frames") || remeshes;
   wired.model = model;
   const Port<ValidityReport> validity = wirer.add("check_validity", CheckValidity{{must_be_sealed}}, model);
   wired.validity = validity;
@@ -96,11 +99,17 @@ void wire_model(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob
   wired.surfaces_pictures = wirer.add("draw_surfaces", DrawModel{}, *wired.surfaces);
 }
 
-void wire_tets(JobWirer& wirer, const Job& job, WiredJob& wired) {
+/// Tetrahedra of the model or of its remeshed surfaces.
+Port<VolumeMesh> wire_tetrahedra(JobWirer& wirer, const Job& job, const TetrahedralizeOptions& options,
+                                 const WiredJob& wired) {
   const bool is_on_surfaces = job.output.from == "surfaces";
-  const Port<BuiltModel> hull = is_on_surfaces ? *wired.surfaces : *wired.model;
-  wired.tets = wirer.add("tetrahedralize", Tetrahedralize{job.tetrahedralize}, hull,
-                         is_on_surfaces ? *wired.surfaces_validity : *wired.validity);
+  return wirer.add("tetrahedralize", Tetrahedralize{options}, is_on_surfaces ? *wired.surfaces : *wired.model,
+                   is_on_surfaces ? *wired.surfaces_validity : *wired.validity);
+}
+
+void wire_tets(JobWirer& wirer, const Job& job, WiredJob& wired) {
+  const Port<BuiltModel> hull = job.output.from == "surfaces" ? *wired.surfaces : *wired.model;
+  wired.tets = wire_tetrahedra(wirer, job, job.tetrahedralize, wired);
   wired.tets_quality = wirer.add("check_mesh", CheckMesh{}, hull, *wired.tets);
   wired.tets_pictures = wirer.add("draw_mesh", DrawMesh{}, *wired.tets);
 }
@@ -117,8 +126,16 @@ void wire_hybrid(JobWirer& wirer, const Job& job, WiredJob& wired) {
   wired.hybrid_pictures = wirer.add("draw_hybrid", DrawMesh{}, cells);
 }
 
-void wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<InputData> input, WiredJob& wired) {
-  const Port<FeatureMesh> problem = wirer.add("plan_problem", PlanProblem{quad.problem}, input);
+struct WiredQuads {
+  Port<FeatureMesh> problem;
+  Port<Attempt<FrameFieldResult>> field;
+  Port<Attempt<FieldAndMap>> seamless;
+  Port<Attempt<GridMapping>> grid;
+  Port<MeshedQuads> quads;
+  Port<Pictures> pictures;
+};
+
+WiredQuads wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<FeatureMesh> problem) {
   const auto field = wirer.add("frame_field", ComputeFrameField{{quad.field, quad.fallback}}, problem);
   const auto seamless = wirer.add("seamless_map", SeamlessMap{{quad.field, quad.fallback}}, problem, field);
   QuantizeStageOptions integers = quad.integers;
@@ -126,11 +143,36 @@ void wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<InputData> input,
   integers.fallback = extraction.fallback = quad.fallback;
   const auto grid = wirer.add("quantize", Quantize{integers}, problem, seamless);
   const auto quads = wirer.add("extract_quads", ExtractQuads{extraction}, problem, grid);
-  wired.plan_problem = problem;
-  wired.seamless_map = seamless;
-  wired.grid = grid;
-  wired.quads = quads;
-  wired.quads_pictures = wirer.add("draw_quads", DrawQuads{}, problem, seamless, grid, quads);
+  return {problem, field, seamless, grid, quads, wirer.add("draw_quads", DrawQuads{}, problem, seamless, grid, quads)};
+}
+
+void wire_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
+  TetrahedralizeOptions tets = job.tetrahedralize;
+  if (!tets.radius_edge_ratio) tets.radius_edge_ratio = 1.8;  // levels between horizons need points there
+  wired.upright =
+      wirer.add("verticalize", Verticalize{job.hex.plan}, wire_tetrahedra(wirer, job, tets, wired));
+  wired.layered_space =
+      wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
+  QuadOptions quad = job.quad;
+  if (job.hex.edge_length_m) quad.problem.plan.edge_length_m = *job.hex.edge_length_m;
+  const auto lines = wirer.add("take_plan_lines", TakePlanLines{}, *wired.upright, input);
+  const WiredQuads plan = wire_quads(wirer, quad, wirer.add("plan_problem", PlanProblem{quad.problem}, lines));
+  if (!wired.frame_field) {
+    wired.frame_field = plan.field;
+    wired.seamless_map = plan.seamless;
+    wired.grid = plan.grid;
+  }
+  wired.hex_plan_problem = plan.problem;
+  wired.hex_plan = plan.quads;
+  wired.hex_plan_pictures = plan.pictures;
+  const auto extruded = wirer.add("extrude", Extrude{}, *wired.layered_space, plan.quads);
+  wired.smoothed_hexes =
+      wirer.add("smooth_hexes", SmoothHexes{job.hex.smoothing}, *wired.layered_space, extruded);
+  wired.hexes = wirer.add("check_hexes", CheckHexes{}, *wired.smoothed_hexes, *wired.layered_space, plan.quads);
+  wired.simulation =
+      wirer.add("simulation_grid", MakeSimulationGrid{job.hex.simulation}, *wired.smoothed_hexes, *wired.hexes, input);
+  wired.hexes_pictures =
+      wirer.add("draw_hexes", DrawMesh{}, wirer.add("hex_cells", TakeHexCells{}, *wired.hexes));
 }
 
 WiredJob wire_job(StageGraph& graph, const Job& job) {
@@ -141,11 +183,27 @@ WiredJob wire_job(StageGraph& graph, const Job& job) {
   std::vector<Port<InputData>> inputs;
   for (const JobInput& input : job.inputs) inputs.push_back(wire_input(wirer, job, input));
   const Port<InputData> input = wirer.add("combine", Combine{}, inputs);
-  if (job.makes("quads")) wire_quads(wirer, job.quad, input, wired);
-  if (!needs_model(job)) return wired;
-  wire_model(wirer, job, input, wired);
+  if (needs_model(job)) wire_model(wirer, job, input, wired);
+  if (job.makes("quads")) {
+    const WiredQuads quads =
+        wire_quads(wirer, job.quad,
+                   job.quad.surfaces.empty()
+                       ? wirer.add("plan_problem", PlanProblem{job.quad.problem}, input)
+                       : wirer.add("plan_surfaces", PlanSurfaces{{job.quad.problem, job.quad.surfaces}}, *wired.model));
+    wired.plan_problem = quads.problem;
+    wired.frame_field = quads.field;
+    wired.seamless_map = quads.seamless;
+    wired.grid = quads.grid;
+    wired.quads = quads.quads;
+    wired.quads_pictures = quads.pictures;
+  }
+  if (!wired.model) return wired;
   if (job.makes("tets")) wire_tets(wirer, job, wired);
+  if (job.makes("frames"))
+    wired.frames = wirer.add("volume_frames", FindVolumeFrames{job.frames},
+                             wired.tets ? *wired.tets : wire_tetrahedra(wirer, job, job.tetrahedralize, wired));
   if (job.makes("hybrid")) wire_hybrid(wirer, job, wired);
+  if (job.makes("hexes")) wire_hexes(wirer, job, input, wired);
   if (job.makes("complexity"))
     wired.complexity = wirer.add("complexity", MeasureComplexity{job.complexity}, *wired.model);
   // Last: pictures wait for idle threads rather than the other way round.
@@ -179,10 +237,21 @@ std::vector<NodeId> WiredJob::wanted() const {
   take(hybrid_quality);
   take(hybrid_pictures);
   take(plan_problem);
+  take(frame_field);
   take(seamless_map);
   take(grid);
   take(quads);
   take(quads_pictures);
+  take(upright);
+  take(layered_space);
+  take(hex_plan_problem);
+  take(hex_plan);
+  take(hex_plan_pictures);
+  take(smoothed_hexes);
+  take(hexes);
+  take(simulation);
+  take(hexes_pictures);
+  take(frames);
   take(tets);
   take(tets_quality);
   take(tets_pictures);

@@ -43,10 +43,22 @@ struct WiredJob {
   std::optional<Port<VolumeQualityReport>> hybrid_quality;
   std::optional<Port<Pictures>> hybrid_pictures;
   std::optional<Port<FeatureMesh>> plan_problem;
+  /// Of the quads, or of the plan of hexes where no quads are made.
+  std::optional<Port<Attempt<FrameFieldResult>>> frame_field;
   std::optional<Port<Attempt<FieldAndMap>>> seamless_map;
   std::optional<Port<Attempt<GridMapping>>> grid;
   std::optional<Port<MeshedQuads>> quads;
   std::optional<Port<Pictures>> quads_pictures;
+  std::optional<Port<UprightModel>> upright;
+  std::optional<Port<LayeredSpace>> layered_space;
+  std::optional<Port<FeatureMesh>> hex_plan_problem;
+  std::optional<Port<MeshedQuads>> hex_plan;
+  std::optional<Port<Pictures>> hex_plan_pictures;
+  std::optional<Port<SmoothedHexes>> smoothed_hexes;
+  std::optional<Port<CheckedHexes>> hexes;
+  std::optional<Port<SimulationFiles>> simulation;
+  std::optional<Port<Pictures>> hexes_pictures;
+  std::optional<Port<FramedMesh>> frames;
   std::optional<Port<VolumeMesh>> tets;
   std::optional<Port<VolumeQualityReport>> tets_quality;
   std::optional<Port<Pictures>> tets_pictures;

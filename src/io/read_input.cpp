@@ -161,7 +161,25 @@ Result<InputData> read_input(const std::filesystem::path& path) {
   if (lower_case(path.extension().string()) == ".sfm") return read_native_model(path);
   const Result<std::string> text = read_input_text(path);
   if (!text) return text.failure();
-  return read_input_bytes(*text, path.filename().string());
+  const std::string name = path.filename().string();
+  if (ending_of(name) == "geo")
+    return read_geo_including(*text, name, [&](const std::string& included) {
+      return read_input_text(path.parent_path() / included);
+    });
+  return read_input_bytes(*text, name);
+}
+
+std::vector<std::string> included_texts(const std::filesystem::path& path) {
+  std::vector<std::string> texts;
+  if (ending_of(path.filename().string()) != "geo") return texts;
+  const Result<std::string> text = read_input_text(path);
+  if (text)  // what is wrong with it is told when it is read
+    (void)read_geo_including(*text, {}, [&](const std::string& included) {
+      Result<std::string> found = read_input_text(path.parent_path() / included);
+      if (found) texts.push_back(*found);
+      return found;
+    });
+  return texts;
 }
 
 }  // namespace strataflow

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/result.h"
 #include "model/input_data.h"
@@ -26,7 +27,11 @@ std::span<const InputFormat> input_formats();
 /// Fails with: unreadable_file, malformed_file, unsupported.
 Result<InputData> read_input(const std::filesystem::path& path);
 
-/// The same for bytes that are in memory (unpacked already); `file_name` gives the ending.
+/// Contents of the files that `path` includes (sections only), in the order met: with the file's own they are all that
+/// read_input depends on. Those that cannot be read are left out.
+std::vector<std::string> included_texts(const std::filesystem::path& path);
+
+/// The same as read_input for bytes that are in memory (unpacked already); `file_name` gives the ending.
 Result<InputData> read_input_bytes(std::string_view bytes, const std::string& file_name);
 
 }  // namespace strataflow

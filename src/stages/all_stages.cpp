@@ -14,13 +14,18 @@
 #include "stages/judge_surfaces_stage.h"
 #include "stages/optimise_sites_stage.h"
 #include "stages/plan_problem_stage.h"
+#include "stages/plan_surfaces_stage.h"
 #include "stages/read_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
 #include "stages/restrict_voronoi_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
+#include "stages/simulation_grid_stage.h"
+#include "stages/stratigraphic_function_stage.h"
 #include "stages/tetrahedralize_stage.h"
+#include "stages/verticalize_stage.h"
+#include "stages/volume_frames_stage.h"
 
 namespace strataflow {
 
@@ -100,6 +105,34 @@ template <>
 struct DataName<MeshedQuads> {
   static constexpr std::string_view text = "quads";
 };
+template <>
+struct DataName<FramedMesh> {
+  static constexpr std::string_view text = "frames";
+};
+template <>
+struct DataName<UprightModel> {
+  static constexpr std::string_view text = "upright model";
+};
+template <>
+struct DataName<LayeredSpace> {
+  static constexpr std::string_view text = "layered space";
+};
+template <>
+struct DataName<ExtrudedHexes> {
+  static constexpr std::string_view text = "extruded hexahedra";
+};
+template <>
+struct DataName<SmoothedHexes> {
+  static constexpr std::string_view text = "hexahedra";
+};
+template <>
+struct DataName<CheckedHexes> {
+  static constexpr std::string_view text = "checked hexahedra";
+};
+template <>
+struct DataName<SimulationFiles> {
+  static constexpr std::string_view text = "simulation grid";
+};
 
 std::vector<StageDescription> all_stages() {
   return {
@@ -124,6 +157,8 @@ std::vector<StageDescription> all_stages() {
       describe_stage<MeasureComplexity>("Measures how complex the model is, as a whole and by neighbourhood",
                                         "[complexity]"),
       describe_stage<PlanProblem>("Cleans the curves that quads must follow and triangulates between them", "[quad]"),
+      describe_stage<PlanSurfaces>("Takes the surfaces of the model that quads are wanted on, with its lines on them",
+                                   "[quad]"),
       describe_stage<ComputeFrameField>("Directions of quads that stand on every feature", "[quad]"),
       describe_stage<SeamlessMap>("A map along the field without folds, features on isolines", "[quad]"),
       describe_stage<Quantize>("Gives features and singular points whole numbers in the map", "[quad]"),
@@ -134,6 +169,16 @@ std::vector<StageDescription> all_stages() {
       describe_stage<RemeshHybrid>("Remeshes all surfaces with the same triangles on both sides of thin layers", "[hybrid]"),
       describe_stage<FillHybrid>("Fills thin layers with prisms and the rest with pyramids and tetrahedra", "[hybrid]"),
       describe_stage<TakeHybridCells>("Hands the cells of a hybrid mesh on", ""),
+      describe_stage<Verticalize>("Finds the plan in which faults stand upright", "[hex]"),
+      describe_stage<FindStratigraphicFunction>("Finds the levels between layers", "[hex]"),
+      describe_stage<TakePlanLines>("Hands the traces of faults, sides and wells on to the quads", ""),
+      describe_stage<Extrude>("Makes one hexahedron per quad and layer", ""),
+      describe_stage<SmoothHexes>("Improves the worst hexahedra", "[hex]"),
+      describe_stage<CheckHexes>("Measures the hexahedra and judges them", ""),
+      describe_stage<MakeSimulationGrid>("Gives cells indices and connections for simulators, places wells", "[hex]"),
+      describe_stage<TakeHexCells>("Hands the cells of hexahedra on", ""),
+      describe_stage<FindVolumeFrames>("Directions in every tetrahedron that stand on the boundary, and their singular curves",
+                                       "[frames]"),
       describe_stage<CheckMesh>("Measures the mesh and holds it against the model", ""),
       describe_stage<DrawMesh>("Draws the mesh cut open along the faces of its cells", ""),
   };

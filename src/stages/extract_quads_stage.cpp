@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kernels/quads/extraction/check_features.h"
 #include "kernels/quads/extraction/check_quads.h"
 #include "kernels/quads/extraction/extract_quads.h"
 #include "kernels/quads/extraction/subdivide_mesh.h"
@@ -10,22 +11,6 @@
 namespace strataflow {
 
 namespace {
-
-template <class Mesh>
-std::vector<double> lengths_of_features(const Mesh& mesh) {
-  std::vector<double> length_m(mesh.features.size(), 0);
-  for (const FeatureEdge& edge : mesh.edges) length_m[edge.feature] += length(mesh.points[edge.a] - mesh.points[edge.b]);
-  return length_m;
-}
-
-/// Features whose chains are clearly shorter than they are: a chord of a quad edge is never shorter than this.
-std::vector<std::string> missing_features(const FeatureMesh& problem, const QuadMesh& quads) {
-  std::vector<std::string> missing;
-  const std::vector<double> wanted_m = lengths_of_features(problem), found_m = lengths_of_features(quads);
-  for (std::size_t f = 0; f < wanted_m.size(); ++f)
-    if (wanted_m[f] > 0 && !(found_m[f] > 0.6 * wanted_m[f])) missing.push_back(problem.features[f].name);
-  return missing;
-}
 
 Result<MeshedQuads> quads_of_map(const GridMapping& grid, std::int64_t rounds) {
   Result<QuadMesh> extracted = extract_quads(grid.mesh, grid.map);
@@ -48,9 +33,9 @@ Result<void> check(const FeatureMesh& problem, MeshedQuads& quads) {
     if (!is_finite(p))
       return Failure{FailureCode::internal_error, "a vertex of the quads is not a finite point", "please report the job"};
   quads.quality = measure_quads(quads.mesh);
-  quads.missing = missing_features(problem, quads.mesh);
+  quads.missing = features_not_followed(problem, quads.mesh);
   if (!quads.missing.empty())
-    return Failure{FailureCode::geometry_failed, "the quads do not follow '" + quads.missing[0] + "' over its whole length",
+    return Failure{FailureCode::geometry_failed, "the quads lack a feature: " + quads.missing[0],
                    "ask for smaller quads, or leave that feature out"};
   if (quads.quality.inverted > 0) {
     const Vec3 at = quads.mesh.points[quads.mesh.quads[quads.quality.worst_quad][0]] + quads.mesh.local_origin;

@@ -14,7 +14,7 @@ struct MeshedQuads {
   QuadMesh mesh;
   QuadQuality quality;
   double scaled_jacobian_before = 0;  ///< the smallest before smoothing
-  std::vector<std::string> missing;   ///< features that are no chain of edges over their whole length
+  std::vector<std::string> missing;   ///< features_not_followed()
   std::string why_subdivided;         ///< the failure that the fallback stands in for; empty: quads of the map
   template <class A>
   void archive(A& a) {

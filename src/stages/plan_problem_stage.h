@@ -2,6 +2,7 @@
 #include "base/option_field.h"
 #include "base/result.h"
 #include "graph/stage_context.h"
+#include "kernels/quads/plan/feature_mesh_of_surface.h"
 #include "kernels/quads/plan/plan_options.h"
 #include "model/feature_mesh.h"
 #include "model/input_data.h"
@@ -13,6 +14,14 @@ struct PlanProblemOptions {
   PlanOptions plan;
   double feature_deg = 40;
   bool by_label = true;
+  SurfaceFeatureOptions on_surfaces() const {
+    SurfaceFeatureOptions surface;
+    surface.edge_length_m = plan.edge_length_m;
+    surface.corner_deg = plan.corner_deg;
+    surface.feature_deg = feature_deg;
+    surface.by_label = by_label;
+    return surface;
+  }
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     plan.visit_fields(visit);

@@ -1,7 +1,12 @@
 #include "stages/quantize_stage.h"
 
+#include <algorithm>
 #include <numbers>
 
+#include "base/id.h"
+#include "kernels/quads/extraction/extract_quads.h"
+#include "kernels/quads/extraction/quad_quality.h"
+#include "kernels/quads/extraction/smooth_quads.h"
 #include "kernels/quads/quantization/imprint_quantization.h"
 
 namespace strataflow {
@@ -56,21 +61,86 @@ Result<GridMapping> imprinted(const FeatureMesh& mesh, const CornerMap& seamless
   return grid;
 }
 
-Result<GridMapping> quantized(const FeatureMesh& mesh, const FrameField& field, const CornerMap& seamless,
-                              const QuantizeStageOptions& options, StageContext& context) {
-  QuantizeOptions integers;
-  integers.coarse = options.coarse;
+Result<GridMapping> mapped(const FeatureMesh& mesh, const FrameField& field, const CornerMap& seamless,
+                           const QuantizeOptions& integers, const std::string& transfer, StageContext& context) {
   FoldoverFreeOptions foldover_free;
   foldover_free.is_cancelled = [&] { return context.is_cancelled(); };
-  if (options.transfer != "imprint") {
+  if (transfer != "imprint") {
     FoldoverFreeOptions first = foldover_free;
-    if (options.transfer == "auto") first.iterations = solve_steps;
+    if (transfer == "auto") first.iterations = solve_steps;
     Result<GridMapping> grid = solved(mesh, field, seamless, integers, first);
-    if (grid || options.transfer == "solve" || grid.failure().code == FailureCode::cancelled) return grid;
+    if (grid || transfer == "solve" || grid.failure().code == FailureCode::cancelled) return grid;
     context.warn("imprinted", "the map could not be optimised with whole numbers, so the coarse mesh is laid over it: " +
                                   grid.failure().what);
   }
   return imprinted(mesh, seamless, integers, foldover_free);
+}
+
+/// How many quads of the grid are turned over however they are smoothed, and the kept points they hang on.
+struct Tangle {
+  std::size_t quads = 0;
+  std::vector<std::uint32_t> points;
+};
+Result<Tangle> tangle_of(const GridMapping& grid) {
+  Result<QuadMesh> quads = extract_quads(grid.mesh, grid.map);
+  if (!quads) return quads.failure();
+  if (measure_quads(*quads).inverted == 0) return Tangle{};
+  if (const Result<SmoothingReport> smoothed = smooth_quads(*quads, grid.mesh); !smoothed) return smoothed.failure();
+  Tangle tangle;
+  std::vector<std::uint8_t> is_near(quads->points.size(), 0);
+  for (const auto& q : quads->quads) {
+    const auto at = [&](std::size_t k) -> const Vec3& { return quads->points[q[k]]; };
+    if (quad_shape(at(0), at(1), at(2), at(3), {0, 0, 1}).scaled_jacobian > 0) continue;
+    ++tangle.quads;
+    for (const std::uint32_t p : q) is_near[p] = 1;
+  }
+  for (std::size_t c = 0; c < quads->corner_points.size(); ++c)
+    if (quads->corner_points[c] != no_index && is_near[quads->corner_points[c]])
+      tangle.points.push_back(grid.mesh.corners[c]);
+  return tangle;
+}
+
+/// A grid whose quads can be drawn with straight sides. Whole numbers say nothing of that: where three kept points are
+/// nearly in a row, or a curve bends within a quad, more rows are asked for there; where many rows squeeze through a gap,
+/// another field leads them around it.
+Result<GridMapping> quantized(const FeatureMesh& mesh, const FrameField& field, const CornerMap& seamless,
+                              const QuantizeStageOptions& options, StageContext& context) {
+  QuantizeOptions integers;
+  integers.coarse = options.coarse;
+  Result<GridMapping> first = mapped(mesh, field, seamless, integers, options.transfer, context);
+  const bool is_plane = std::all_of(mesh.points.begin(), mesh.points.end(), [](const Vec3& p) { return p.z == 0; });
+  if ((!first && first.failure().code == FailureCode::cancelled) || (first && !is_plane)) return first;
+  Result<Tangle> tangle = first ? tangle_of(*first) : Result<Tangle>(first.failure());
+  if (tangle && tangle->quads == 0) return first;
+  constexpr int most_rounds = 4;
+  for (int round = 0; tangle && !tangle->points.empty() && round < most_rounds; ++round) {
+    if (context.is_cancelled()) return first;
+    integers.crowded.insert(integers.crowded.end(), tangle->points.begin(), tangle->points.end());
+    Result<GridMapping> next = mapped(mesh, field, seamless, integers, options.transfer, context);
+    if (!next) break;
+    tangle = tangle_of(*next);
+    if (!tangle || tangle->quads > 0) continue;
+    context.warn("crowded", "more rows of quads than asked for lie around " +
+                                std::to_string(integers.crowded.size()) + " points, where curves come too near");
+    return next;
+  }
+  integers.crowded.clear();
+  FoldoverFreeOptions foldover_free;
+  foldover_free.is_cancelled = [&] { return context.is_cancelled(); };
+  const std::vector<FrameFieldOptions> fields = alternative_fields({});
+  for (std::size_t k = 1; k < fields.size() && !context.is_cancelled(); ++k) {
+    const Result<FrameFieldResult> other = compute_frame_field(mesh, fields[k]);
+    if (!other) continue;
+    const Result<OptimisedMap> map = optimise_map(mesh, other->field, {}, nullptr, foldover_free);
+    if (!map) continue;
+    Result<GridMapping> next = mapped(mesh, other->field, map->map, integers, options.transfer, context);
+    if (!next) continue;
+    tangle = tangle_of(*next);
+    if (!tangle || tangle->quads > 0) continue;
+    context.warn("other_field", "another field had to be taken: quads of the first would turn over");
+    return next;
+  }
+  return first;
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "base/atomic_file.h"
 #include "io/read_input.h"
 #include "kernels/quads/plan/plan_curves.h"
+#include "kernels/quads/plan/trace_surfaces.h"
 
 namespace strataflow {
 
@@ -16,13 +17,23 @@ Result<void> rename_input(InputData& data, const ReadOptions& options) {
                      "remove it, or name a file of fault sticks"};
     data.lines = {trace_of_sticks(data.lines)};
   }
+  if (options.traces) {
+    if (data.surfaces.triangles.empty())
+      return Failure{FailureCode::invalid_options, "traces = true is given to a file without surfaces",
+                     "remove it, or name a file of faults"};
+    std::vector<Polyline> traces = traces_of_surfaces(data.surfaces);
+    data.lines.insert(data.lines.end(), traces.begin(), traces.end());
+    data.surfaces = {};
+    if (options.name)
+      for (Polyline& line : data.lines) line.name = *options.name;
+  }
   if (options.role) {
     const Role role = role_from(*options.role).value_or(Role::unknown);
     for (Entity& entity : data.surfaces.entities) entity.role = role;
     for (Polyline& line : data.lines) line.role = role;
     for (PointSet& set : data.point_sets) set.role = role;
   }
-  if (options.name) {
+  if (options.name && !options.traces) {
     const std::size_t things = data.surfaces.entities.size() + data.lines.size() + data.point_sets.size();
     if (things != 1)
       return Failure{FailureCode::invalid_options,
@@ -42,6 +53,10 @@ Result<Digest> Read::external_digest() const {
   ArchiveWriter key;
   const Digest digest = digest_of(*content);
   key(digest.high, digest.low, file.filename().string());
+  for (const std::string& text : included_texts(file)) {
+    const Digest included = digest_of(text);
+    key(included.high, included.low);
+  }
   return digest_of(key.bytes());
 }
 

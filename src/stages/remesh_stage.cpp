@@ -68,22 +68,27 @@ Result<RemeshedSurfaces> RemeshByCells::operator()(const BuiltModel& built, cons
   RemeshAtResolutionOptions dual;
   // Only what lies nearer than d_resolution_m is merged: merging all that one cell sees moves borders by half a cell.
   dual.merge.merges_linked_corners = dual.merge.merges_beyond_two_points = false;
+  dual.merge.follows_bends = true;
   dual.merge.resolution_m = options.d_resolution_m.value_or(0);
+  dual.merge.most_move_m =
+      std::max(options.hausdorff_ratio * built.model.box.diagonal_m(), options.d_resolution_m.value_or(0));
   dual.must_keep_all = options.preserve == "all";
   dual.edge_length_m = sites.edge_length_m;
   dual.distance_ratio = 0.5 * options.hausdorff_ratio;
-  dual.wanted_distance_m =
-      std::max(options.hausdorff_ratio * built.model.box.diagonal_m(), options.d_resolution_m.value_or(0));
+  dual.wanted_distance_m = dual.merge.most_move_m;
   // Few steps: more would spread again what was put where it is needed.
   dual.reoptimise.lloyd_iterations = 2;
   dual.reoptimise.iterations = std::min<std::size_t>(6, static_cast<std::size_t>(options.sites.iterations));
   dual.reoptimise.line_attraction = sites.line_attraction;
   dual.is_cancelled = dual.reoptimise.is_cancelled = [&] { return context.is_cancelled(); };
   Result<RemeshedAtResolution> result = remesh_at_resolution(built.model, sites.sites, dual);
-  if (!result && dual.must_keep_all && result.failure().code == FailureCode::geometry_failed) {
+  if (!result && result.failure().code == FailureCode::geometry_failed) {
     // Steps that start from the input's triangles cannot fail: what they cannot improve stays.
     context.warn("kept_triangulation", result.failure().what + "; remeshed by steps from the input's triangles instead");
-    return Remesh{options}(built, validity, context);
+    Result<RemeshedSurfaces> kept = Remesh{options}(built, validity, context);
+    if (kept && !dual.must_keep_all)
+      kept->changes.push_back({"nothing_merged", "all corners, lines and surfaces are kept", result.failure().what});
+    return kept;
   }
   if (!result) return result.failure();
   RemeshedSurfaces remeshed = surfaces_of(built.model, std::move(result->evened));

@@ -75,7 +75,7 @@ struct RemeshStageOptions {
 /// keeps all and leaves the mesh valid.
 struct Remesh {
   static constexpr std::string_view name = "remesh";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity,
@@ -86,7 +86,7 @@ struct Remesh {
 /// input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
 struct RemeshByCells {
   static constexpr std::string_view name = "remesh_by_cells";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity, const SiteSet& sites,

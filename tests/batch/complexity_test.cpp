@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "batch/report/complexity_json.h"
 #include "batch/run/run_batch.h"
 #include "io/vtk/read_vtk_xml.h"
 #include "support/command_line.h"
@@ -50,6 +51,17 @@ TEST(ComplexityProduct, writes_its_block_its_page_and_its_map) {
   EXPECT_GE(read->volume.cell_count(), 7 * block["cells"][1]["n"].get<std::size_t>());  // about eight voxels a cell
   for (const char* name : {"\"elements\"", "\"needed_edge_m\""}) EXPECT_THAT(map, HasSubstr(name));
   EXPECT_THAT(support::read_text(folder / "report.html"), HasSubstr("Complexity"));
+}
+
+TEST(ComplexityProduct, totals_are_the_sums_of_their_parts) {
+  ComplexityReport report;
+  report.counts = {.regions = 2, .surfaces = 11, .lines = 20, .corners = 12};
+  report.geometric.elements = {{.type = ElementType::surface, .element = 4, .too_small = 1, .sharp = 0.5}};
+  const nlohmann::ordered_json block = complexity_json(report);
+  EXPECT_EQ(block["counts"]["total"], 45);
+  EXPECT_EQ(block["geometric"]["surfaces"]["total"], 1.5);
+  EXPECT_EQ(block["geometric"]["elements"][0]["type"], "surface");
+  EXPECT_EQ(block["geometric"]["total"], 1.5);
 }
 
 TEST(ComplexityProduct, knows_its_neighbourhoods_and_says_so_before_any_work) {

@@ -71,6 +71,33 @@ TEST_F(JobDeterminism, holds_for_every_number_of_threads) {
   }
 }
 
+TEST_F(JobDeterminism, holds_for_hybrid_meshes_quads_and_hexahedra) {
+  support::write_text(scratch_.path() / "hexes.toml",
+                      "[[input]]\nmodel = \"dipping-faults\"\nresolution_m = 200.0\n[output]\nproducts = [\"hexes\"]\n"
+                      "[hex]\nedge_length_m = 150.0\nlayers = 1\n");
+  support::write_text(scratch_.path() / "hybrid.toml",
+                      "[[input]]\nmodel = \"slab\"\n[output]\nproducts = [\"hybrid\"]\n[hybrid]\nsites = 60\n");
+  support::write_text(scratch_.path() / "quads.toml",
+                      "[[input]]\nmodel = \"slab\"\n[output]\nproducts = [\"quads\"]\n[quad]\nedge_length_m = 40.0\n");
+  jobs_.clear();
+  for (const char* name : {"hexes.toml", "hybrid.toml", "quads.toml"}) {
+    const Result<std::vector<Job>> read = read_jobs(scratch_.path() / name);
+    ASSERT_TRUE(read) << describe(read.failure());
+    jobs_.insert(jobs_.end(), read->begin(), read->end());
+  }
+  RunOptions options;
+  options.executor = ExecutorKind::serial;
+  const std::vector<Files> expected = run(options);
+  for (const int threads : {1, 2, 3, 8}) {
+    RunOptions parallel;
+    parallel.threads = threads;
+    EXPECT_EQ(run(parallel), expected) << threads << " threads";
+  }
+  options.executor = ExecutorKind::shuffled;
+  for (options.shuffle_seed = 0; options.shuffle_seed < 3; ++options.shuffle_seed)
+    EXPECT_EQ(run(options), expected) << "seed " << options.shuffle_seed;
+}
+
 TEST_F(JobDeterminism, holds_for_many_shuffled_schedules) {
   jobs_.resize(1);
   RunOptions serial;

@@ -80,6 +80,25 @@ TEST(ReadStage, takes_the_first_points_of_sticks_as_the_trace_of_their_fault) {
   EXPECT_FALSE(rename_input(surface, {{}, {}, true}));
 }
 
+TEST(ReadStage, takes_the_upper_borders_of_faults_as_their_traces) {
+  InputData data;
+  data.surfaces.points = {{0, 0, 9}, {5, 0, 9}, {5, 1, 0}, {0, 1, 0}};
+  data.surfaces.triangles = {{0, 1, 2}, {0, 2, 3}};
+  data.surfaces.triangle_patch = {0, 0};
+  data.surfaces.patch_entity = {0};
+  data.surfaces.entities = {{"old", Role::fault}};
+  ReadOptions options;
+  options.name = "F1";
+  options.traces = true;
+  ASSERT_TRUE(rename_input(data, options));
+  EXPECT_TRUE(data.surfaces.triangles.empty());
+  ASSERT_EQ(data.lines.size(), 1u);
+  EXPECT_EQ(data.lines[0].name, "F1");
+  EXPECT_EQ(data.lines[0].points, (std::vector<Vec3>{{0, 0, 9}, {5, 0, 9}}));
+  InputData no_surface;
+  EXPECT_FALSE(rename_input(no_surface, options));
+}
+
 TEST(CombineStage, keeps_the_order_and_moves_near_the_origin) {
   InputData far = box();
   for (Vec3& p : far.surfaces.points) p = p + Vec3{5e6, 5e6, 0};

@@ -15,13 +15,18 @@
 #include "stages/cut_constrained_stage.h"
 #include "stages/cut_stage.h"
 #include "stages/extract_quads_stage.h"
+#include "stages/extrude_stage.h"
 #include "stages/hybrid_stage.h"
 #include "stages/judge_surfaces_stage.h"
-#include "stages/plan_problem_stage.h"
+#include "stages/plan_surfaces_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
+#include "stages/volume_frames_stage.h"
+#include "stages/simulation_grid_stage.h"
+#include "stages/stratigraphic_function_stage.h"
+#include "stages/verticalize_stage.h"
 
 namespace strataflow {
 
@@ -45,6 +50,7 @@ struct JobInput {
   std::optional<double> resolution_m;
   std::optional<double> raw_ratio;
   bool sticks = false;
+  bool traces = false;
   std::string origin;  ///< file:line
   template <class Visitor>
   void visit_fields(Visitor& visit) {
@@ -67,6 +73,8 @@ struct JobInput {
                                  .maximum = 0.2});
     visit(sticks, OptionField{.name = "sticks",
                               .description = "The file's lines are sticks of one fault: their first points become its trace"});
+    visit(traces, OptionField{.name = "traces",
+                              .description = "The upper borders of the file's surfaces are taken in their place, as traces"});
   }
 };
 
@@ -80,7 +88,7 @@ struct OutputOptions {
     visit(products,
           OptionField{.name = "products",
                       .description = "What to make; only what a product needs runs",
-                      .words = {"model", "voronoi", "surfaces", "tets", "hybrid", "quads", "hexes", "complexity"}});
+                      .words = {"model", "voronoi", "surfaces", "tets", "hybrid", "quads", "hexes", "frames", "complexity"}});
     visit(formats, OptionField{.name = "formats",
                                .description = "File formats of the products; vtk (vtp, vtu) is always written",
                                .words = {"vtk", "gocad", "medit", "gmsh", "obj", "abaqus", "grdecl"}});
@@ -131,6 +139,7 @@ struct SealOptions {
 /// [quad]: the options of five stages.
 struct QuadOptions {
   PlanProblemOptions problem;
+  std::vector<std::string> surfaces;
   FrameFieldOptions field;
   QuantizeStageOptions integers;
   ExtractQuadsOptions quads;
@@ -138,6 +147,7 @@ struct QuadOptions {
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     problem.visit_fields(visit);
+    PlanSurfacesOptions::visit_surfaces(visit, surfaces);
     field.visit_fields(visit);
     integers.visit_own(visit);
     quads.visit_own(visit);
@@ -145,18 +155,24 @@ struct QuadOptions {
   }
 };
 
-/// [hex]: the keys a job may already carry for the product hexes of later versions.
-struct LaterHexOptions {
+/// [hex]: the options of four stages, and how long the edges of the plan are.
+struct HexOptions {
   std::optional<double> edge_length_m;
-  std::optional<bool> deck;
+  VerticalizeOptions plan;
+  LayerStageOptions layers;
+  SmoothHexesStageOptions smoothing;
+  SimulationGridStageOptions simulation;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     visit(edge_length_m, OptionField{.name = "edge_length_m",
-                                     .description = "Length of the cells' edges (product hexes, not in this version)",
+                                     .description = "Wanted length of the cells' edges seen from above; absent: "
+                                                    "quad.edge_length_m",
                                      .minimum = 0,
                                      .exclusive_minimum = true});
-    visit(deck,
-          OptionField{.name = "deck", .description = "Write a runnable deck (product hexes, not in this version)"});
+    plan.visit_fields(visit);
+    layers.visit_fields(visit);
+    smoothing.visit_fields(visit);
+    simulation.visit_fields(visit);
   }
 };
 
@@ -172,8 +188,9 @@ struct Job {
   SimplifyBordersStageOptions simplify;
   TetrahedralizeOptions tetrahedralize;
   RemeshStageOptions remesh;
-  LaterHexOptions hex;
+  HexOptions hex;
   ComplexityOptions complexity;
+  VolumeFramesOptions frames;
   QuadOptions quad;
   HybridOptions hybrid;
 
@@ -189,6 +206,7 @@ struct Job {
     visit("quad", quad);
     visit("hex", hex);
     visit("complexity", complexity);
+    visit("frames", frames);
   }
   bool makes(std::string_view product) const;
   bool writes(std::string_view format) const;

@@ -64,8 +64,9 @@ void check_input(const Job& job, const JobInput& input, Problems& problems) {
         reference_model_names().end())
       add(problems, input.origin, "unknown reference model '" + *input.model + "'",
           suggestion(*input.model, reference_model_names()));
-    if (input.name || input.role || input.sticks)
-      add(problems, input.origin, "name, role and sticks are for files: a reference model names its own surfaces",
+    if (input.name || input.role || input.sticks || input.traces)
+      add(problems, input.origin,
+          "name, role, sticks and traces are for files: a reference model names its own surfaces",
           "remove them");
     return;
   }
@@ -127,13 +128,9 @@ void check_products(const JobValue& root, const Job& job, Problems& problems) {
   if (job.output.products.empty())
     add(problems, origin, "output.products is empty", "for instance products = [\"model\", \"tets\"]");
   std::set<std::string> seen;
-  for (const std::string& product : job.output.products) {
+  for (const std::string& product : job.output.products)
     if (!seen.insert(product).second)
       add(problems, origin, "product '" + product + "' is named twice", "name it once");
-    else if (!contains({"model", "voronoi", "surfaces", "tets", "hybrid", "quads", "complexity"}, product))
-      add(problems, origin, "product '" + product + "' is not available in this version",
-          "available: model, voronoi, surfaces, tets, hybrid, quads, complexity");
-  }
   if (job.output.from == "model" && job.makes("hybrid"))
     add(problems, origin_of(root, "output", "from"), "hybrid meshes are always built on the remeshed surfaces",
         "write from = \"surfaces\", or remove it");

@@ -54,10 +54,21 @@ struct JobReport {
   std::shared_ptr<const VolumeQualityReport> hybrid_quality;
   std::shared_ptr<const Pictures> hybrid_pictures;
   std::shared_ptr<const FeatureMesh> plan_problem;
+  std::shared_ptr<const Attempt<FrameFieldResult>> frame_field;  ///< like the next two, of hexes where no quads are made
   std::shared_ptr<const Attempt<FieldAndMap>> seamless_map;
   std::shared_ptr<const Attempt<GridMapping>> grid;
   std::shared_ptr<const MeshedQuads> quads;
   std::shared_ptr<const Pictures> quads_pictures;
+  std::shared_ptr<const UprightModel> upright;
+  std::shared_ptr<const LayeredSpace> layered_space;
+  std::shared_ptr<const FeatureMesh> hex_plan_problem;
+  std::shared_ptr<const MeshedQuads> hex_plan;
+  std::shared_ptr<const Pictures> hex_plan_pictures;
+  std::shared_ptr<const SmoothedHexes> smoothed_hexes;
+  std::shared_ptr<const CheckedHexes> hexes;
+  std::shared_ptr<const SimulationFiles> simulation;
+  std::shared_ptr<const Pictures> hexes_pictures;
+  std::shared_ptr<const FramedMesh> frames;
   std::shared_ptr<const VolumeMesh> tets;
   std::shared_ptr<const VolumeQualityReport> tets_quality;
   std::shared_ptr<const Pictures> tets_pictures;

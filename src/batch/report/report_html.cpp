@@ -291,6 +291,28 @@ std::string hybrid_section(const HybridMesh& hybrid, const VolumeQualityReport& 
   return html;
 }
 
+std::string hexes_section(const JobReport& report) {
+  const HexGrid& grid = report.smoothed_hexes->hexes.grid;
+  std::string html = volume_section("Hexahedra", report.hexes->live.mesh, report.hexes->quality);
+  Rows rows = {{"layers", count(grid.layers)},
+               {"quads of the plan", count(grid.plan.quads.size())},
+               {"singular vertices of the plan", count(report.hexes->singular_vertices)},
+               {"cells without volume", count(report.smoothed_hexes->hexes.report.dead)},
+               {"cells that end in an edge", count(report.hexes->audit.wedges)},
+               {"smallest scaled Jacobian before smoothing", readable_number(report.smoothed_hexes->smoothing.min_before)},
+               {"after", readable_number(report.hexes->quality.min_scaled_jacobian)}};
+  if (report.simulation) {
+    const SimulationGridReport& simulation = report.simulation->grid.report;
+    rows.push_back({"layout for simulators", simulation.layout});
+    if (!simulation.reason.empty()) rows.push_back({"not native because", simulation.reason});
+    rows.push_back({"active cells", count(simulation.active_cells)});
+    rows.push_back({"connections beside those by index", count(simulation.lateral_connections + simulation.vertical_connections +
+                                                              simulation.fault_connections)});
+    rows.push_back({"largest deviation from straight pillars, m", readable_number(simulation.largest_deviation_m)});
+  }
+  return html + html_table({}, rows);
+}
+
 }  // namespace
 
 std::string report_html(const JobReport& report) {
@@ -311,6 +333,9 @@ std::string report_html(const JobReport& report) {
     body += volume_section("Tetrahedra", *report.tets, *report.tets_quality) + pictures_html(report.tets_pictures);
   if (report.hybrid && report.hybrid_quality)
     body += hybrid_section(*report.hybrid, *report.hybrid_quality) + pictures_html(report.hybrid_pictures);
+  if (report.hexes && report.hex_plan)
+    body += hexes_section(report) + pictures_html(report.hexes_pictures) + "<h3>Plan</h3>\n" +
+            pictures_html(report.hex_plan_pictures);
   body += stages_section(report);
   return html_page(name + " – strataflow", body);
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "batch/program_version.h"
+#include "batch/report/complexity_json.h"
 #include "kernels/topology/validity/check_validity.h"
 #include "stages/all_stages.h"
 
@@ -256,106 +257,6 @@ Json surfaces_block(const SiteSet* sites, const RemeshedSurfaces& remeshed, cons
   return json;
 }
 
-Json parts_json(const ElementComplexity& sum) {
-  return {{"too_small", sum.too_small},
-          {"shape", sum.shape},
-          {"thin", sum.thin},
-          {"sharp", sum.sharp},
-          {"total", sum.total()}};
-}
-
-Json geometric_json(const GeometricComplexity& geometric) {
-  Json elements = Json::array();
-  for (const ElementComplexity& one : geometric.elements) {
-    Json json = {{"type", one.type == ElementType::region    ? "region"
-                          : one.type == ElementType::surface ? "surface"
-                                                             : "line"},
-                 {"id", one.element},
-                 {"size", one.size}};
-    json.update(parts_json(one));
-    elements.push_back(std::move(json));
-  }
-  return {{"edge_length_m", geometric.edge_length_m},
-          {"angle_deg", geometric.angle_deg},
-          {"thickness_spacing_m", geometric.spacing_m},
-          {"regions", parts_json(geometric.sum_of(ElementType::region))},
-          {"surfaces", parts_json(geometric.sum_of(ElementType::surface))},
-          {"lines", parts_json(geometric.sum_of(ElementType::line))},
-          {"total", geometric.total()},
-          {"elements", elements}};
-}
-
-Json spread_json(const LengthDistribution& spread) {
-  return {{"length_m", spread.length_m}, {"minimum", spread.minimum}, {"q50", spread.q50},
-          {"q90", spread.q90},           {"maximum", spread.maximum}, {"mean", spread.mean}};
-}
-
-Json faults_json(const FaultReport& report) {
-  Json list = Json::array();
-  for (const FaultMeasures& fault : report.faults)
-    list.push_back({{"name", fault.name},
-                    {"area_m2", fault.area_m2},
-                    {"strike_deg", fault.strike_deg},
-                    {"dip_deg", fault.dip_deg},
-                    {"horizons", fault.horizons},
-                    {"layers_affected", fault.layers_affected},
-                    {"throw_m", spread_json(fault.throw_m)},
-                    {"unmatched_m", fault.unmatched_m},
-                    {"horizon_angle_deg", spread_json(fault.horizon_angle_deg)},
-                    {"faults", fault.faults},
-                    {"fault_angle_deg", spread_json(fault.fault_angle_deg)},
-                    {"free_border_m", fault.free_border_m}});
-  return list;
-}
-
-Json complexity_block(const ComplexityReport& report) {
-  const ElementCounts& counts = report.counts;
-  const SizeVariation& variation = report.size_variation;
-  const FaultNetworkMeasures& network = report.faults.network;
-  Json cells = Json::array();
-  for (const CellStatistics& one : report.cells)
-    cells.push_back({{"n", one.cells},
-                     {"resolution_m", one.resolution_m},
-                     {"q10", one.q10},
-                     {"q50", one.q50},
-                     {"q90", one.q90},
-                     {"max", one.max},
-                     {"mean", one.mean},
-                     {"cv", one.cv},
-                     {"above_6", one.above_6},
-                     {"needed_edge_m", one.needed_edge_m}});
-  Json needs = Json::array();
-  for (std::size_t i = 0; i < report.needs.size(); ++i)
-    needs.push_back({{"region", i},
-                     {"name", report.needs[i].name},
-                     {"thinnest_m", report.needs[i].thinnest_m},
-                     {"needed_edge_m", report.needs[i].needed_edge_m}});
-  return {{"counts",
-           {{"regions", counts.regions},
-            {"surfaces", counts.surfaces},
-            {"lines", counts.lines},
-            {"corners", counts.corners},
-            {"total", counts.total()}}},
-          {"geometric", geometric_json(report.geometric)},
-          {"size_variation",
-           {{"regions", variation.regions},
-            {"surfaces", variation.surfaces},
-            {"lines", variation.lines},
-            {"total", variation.total()}}},
-          {"neighbourhoods", report.neighbourhoods},
-          {"count_by", report.count_by},
-          {"cells", cells},
-          {"faults", faults_json(report.faults)},
-          {"fault_network",
-           {{"faults", network.faults},
-            {"contacts", network.contacts},
-            {"dying", network.dying},
-            {"contact_length_m", network.contact_length_m},
-            {"smallest_angle_deg", network.smallest_angle_deg},
-            {"orientation_variation", network.orientation_variation}}},
-          {"regions", needs}};
-}
-
 Json json_of(const DihedralQuantiles& angles) {
   const auto listed = [](const std::vector<AngleQuantile>& quantiles) {
     Json list = Json::array();
@@ -482,6 +383,106 @@ Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, 
   return block;
 }
 
+/// Structs that list their fields by name.
+template <class Fields>
+Json json_of_fields(const Fields& fields);
+
+struct FieldsToJson {
+  Json json = Json::object();
+  template <class T>
+  void operator()(const char* name, const T& value) {
+    json[name] = json_of_field(value);
+  }
+  template <class T>
+  static Json json_of_field(const T& value) {
+    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
+      return value;
+    else if constexpr (std::is_same_v<T, Distribution>)
+      return json_of(std::vector<Distribution>{value});
+    else
+      return json_of_fields(value);
+  }
+  template <class T>
+  static Json json_of_field(const std::vector<T>& values) {
+    Json items = Json::array();
+    for (const T& value : values) items.push_back(json_of_field(value));
+    return items;
+  }
+};
+
+template <class Fields>
+Json json_of_fields(const Fields& fields) {
+  FieldsToJson visit;
+  const_cast<Fields&>(fields).visit_fields(visit);  // one list serves reading and writing
+  return visit.json;
+}
+
+Json simulation_block(const SimulationFiles& files) {
+  const SimulationGridReport& report = files.grid.report;
+  Json wells = Json::array();
+  for (const SimulationWell& well : files.wells)
+    wells.push_back({{"name", well.name}, {"injects", well.is_injector}, {"cells", well.cells.size()}});
+  return {{"size", files.grid.grid.size},
+          {"layout", report.layout},
+          {"reason", report.reason},
+          {"blocks", report.blocks},
+          {"split_columns", report.split_columns},
+          {"active_cells", report.active_cells},
+          {"dead_cells", report.dead_cells},
+          {"occupancy_ratio", report.occupancy_ratio},
+          {"largest_deviation_m", report.largest_deviation_m},
+          {"largest_volume_error_ratio", report.largest_volume_error_ratio},
+          {"volume_error_ratio", report.volume_error_ratio},
+          {"index_contacts", report.index_contacts},
+          {"lateral_connections", report.lateral_connections},
+          {"vertical_connections", report.vertical_connections},
+          {"fault_connections", report.fault_connections},
+          {"wells", wells}};
+}
+
+Json frames_block(const FramedMesh& frames) {
+  double length_m = 0;
+  for (const Polyline& line : frames.singular)
+    for (std::size_t i = 0; i + (line.is_closed ? 0 : 1) < line.points.size(); ++i)
+      length_m += length(line.points[(i + 1) % line.points.size()] - line.points[i]);
+  return {{"cells", frames.mesh.cell_count()},
+          {"energy", frames.energy},
+          {"iterations", frames.iterations},
+          {"smallest_determinant", frames.smallest_determinant},
+          {"singular_curves", frames.singular.size()},
+          {"singular_length_m", length_m}};
+}
+
+Json hexes_block(const JobReport& report) {
+  const VolumeQualityReport& quality = report.hexes->quality;
+  const HexGrid& grid = report.smoothed_hexes->hexes.grid;
+  const ExtrusionReport& extrusion = report.smoothed_hexes->hexes.report;
+  const HexSmoothing& smoothing = report.smoothed_hexes->smoothing;
+  Json block = tets_block(report.hexes->live.mesh, quality);
+  block["cells"] = quality.cells;
+  block["dead_cells"] = extrusion.dead;
+  block["wedges"] = report.hexes->audit.wedges;
+  block["offset_fault_faces"] = report.hexes->audit.diagnosis.nonconforming_faces.on_faults;
+  block["layers"] = grid.layers;
+  block["quads"] = grid.plan.quads.size();
+  block["singular_vertices"] = report.hexes->singular_vertices;
+  block["min_scaled_jacobian"] = quality.min_scaled_jacobian;
+  block["mean_scaled_jacobian"] = quality.mean_scaled_jacobian;
+  block["smoothing"] = {{"min_scaled_jacobian_before", smoothing.min_before},
+                        {"min_scaled_jacobian_after", smoothing.min_after},
+                        {"moves", smoothing.moves},
+                        {"sweeps", smoothing.sweeps}};
+  block["largest_outside_m"] = extrusion.largest_outside_m;
+  block["unreached_corners"] = extrusion.unreached;
+  block["levels"] = report.layered_space->layers.level_names;
+  block["untangling"] = {{"turned_over_at_first", report.layered_space->turned_over_at_first},
+                         {"steps", report.layered_space->untangling_steps}};
+  block["audit"] = json_of_fields(report.hexes->audit);
+  block["plan"] = quads_block(*report.hex_plan_problem, *report.hex_plan, nullptr, nullptr);
+  if (report.simulation) block["simulation_grid"] = simulation_block(*report.simulation);
+  return block;
+}
+
 }  // namespace
 
 std::string report_json(const JobReport& report) {
@@ -506,12 +507,14 @@ std::string report_json(const JobReport& report) {
   if (report.remeshed && report.surfaces && report.surfaces_validity && report.surfaces_report)
     json["surfaces"] =
         surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
-  if (report.complexity) json["complexity"] = complexity_block(*report.complexity);
+  if (report.complexity) json["complexity"] = complexity_json(*report.complexity);
   if (report.quads && report.plan_problem)
     json["quads"] = quads_block(*report.plan_problem, *report.quads, report.seamless_map.get(), report.grid.get());
   if (report.hybrid && report.hybrid_quality && report.hybrid_remeshed && report.hybrid_surfaces_report)
     json["hybrid"] = hybrid_block(*report.hybrid, *report.hybrid_quality, *report.hybrid_remeshed,
                                   *report.hybrid_surfaces_report);
+  if (report.hexes && report.hex_plan) json["hexes"] = hexes_block(report);
+  if (report.frames) json["frames"] = frames_block(*report.frames);
   if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
   return written(json);
 }

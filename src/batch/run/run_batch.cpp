@@ -98,14 +98,34 @@ JobReport report_of(const Job& job, const WiredJob& wired, const StageGraph& gra
   report.hybrid_quality = output(wired.hybrid_quality);
   report.hybrid_pictures = output(wired.hybrid_pictures);
   report.plan_problem = output(wired.plan_problem);
+  report.frame_field = output(wired.frame_field);
   report.seamless_map = output(wired.seamless_map);
   report.grid = output(wired.grid);
   report.quads = output(wired.quads);
   report.quads_pictures = output(wired.quads_pictures);
+  report.upright = output(wired.upright);
+  report.layered_space = output(wired.layered_space);
+  report.hex_plan_problem = output(wired.hex_plan_problem);
+  report.hex_plan = output(wired.hex_plan);
+  report.hex_plan_pictures = output(wired.hex_plan_pictures);
+  report.smoothed_hexes = output(wired.smoothed_hexes);
+  report.hexes = output(wired.hexes);
+  report.simulation = output(wired.simulation);
+  report.hexes_pictures = output(wired.hexes_pictures);
+  report.frames = output(wired.frames);
   report.tets = output(wired.tets);
   report.tets_quality = output(wired.tets_quality);
   report.tets_pictures = output(wired.tets_pictures);
   return report;
+}
+
+/// Writes what the stages before a failure left, and says where it is.
+void leave_for_inspection(const fs::path& folder, const std::vector<RunFile>& files, Failure& failure) {
+  if (files.empty()) return;
+  Result<void> written = check_run_folder(folder);
+  if (written) written = replace_run_folder(folder, files);
+  failure.remedy += written ? "; what the stages before made is in " + folder.string()
+                            : "; what the stages before made could not be written: " + written.failure().what;
 }
 
 int thread_count(const RunOptions& run) {
@@ -154,15 +174,24 @@ Result<std::vector<JobOutcome>> run_batch(const std::vector<Job>& jobs, const Ba
     const Failure cancelled{FailureCode::cancelled, "cancelled",
                             "run it again: finished stages are taken from the store"};
     if (!result.failure && is_cancelled()) result.failure = cancelled;
-    if (result.failure) continue;
-    const std::vector<RunFile> files =
-        run_files(report, {thread_count(run), outcome.total_s, peak_memory_mb(), folders[i]});
+    const fs::path failed_folder = folders[i].string() + ".failed";
+    const auto facts = [&](const fs::path& folder) {
+      return RunFacts{thread_count(run), outcome.total_s, peak_memory_mb(), folder};
+    };
+    if (result.failure) {
+      if (result.failure->code != FailureCode::cancelled)
+        leave_for_inspection(failed_folder, inspection_files(report, facts(failed_folder)), *result.failure);
+      continue;
+    }
+    const std::vector<RunFile> files = run_files(report, facts(folders[i]));
     if (is_cancelled())
       result.failure = cancelled;
     else if (const Result<void> written = replace_run_folder(folders[i], files); !written)
       result.failure = written.failure();
-    else
+    else {
+      remove_run_folder(failed_folder);  // of an earlier run
       finished.push_back(report);
+    }
   }
   if (finished.size() > 1) {  // one page for all, beside the first run folder
     const fs::path page = folders.front().parent_path() / "comparison.html";

@@ -26,7 +26,8 @@ struct JobOutcome {
 };
 
 /// Runs all jobs as one graph and writes a run folder for each that succeeds; a failed job leaves its folder as it was,
-/// and the others go on. If several succeed, comparison.html, beside the first run folder, sets them side by side.
+/// and the others go on. Where quads could not be made, what the stages before left is written whole beside it, to a
+/// folder of the same name with ".failed" that the message names; the next success removes it. If several succeed, comparison.html, beside the first run folder, sets them side by side.
 /// Outcomes are in the order of `jobs`. Fails before any work with invalid_usage (two jobs with
 /// the same run folder, an unknown stage to stop after, a folder that is no run folder) or write_failed.
 Result<std::vector<JobOutcome>> run_batch(const std::vector<Job>& jobs, const BatchOptions& options);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <span>
 
 #include "base/log.h"
 #include "batch/job_file/resolved_job.h"
@@ -75,8 +76,9 @@ std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
   if (report.complexity && job.makes("complexity"))
     add("complexity.vtu", write_vtu(report.complexity->map, report.complexity->fields));
   if (report.quads && job.makes("quads")) add("quads.vtp", write_quads_vtp(report.quads->mesh));
-  const auto add_volume = [&](const std::string& product, const VolumeMesh& mesh) {
-    add(product + ".vtu", write_vtu(mesh));
+  const auto add_volume = [&](const std::string& product, const VolumeMesh& mesh,
+                              std::span<const CellField> fields = {}) {
+    add(product + ".vtu", write_vtu(mesh, fields));
     add(product + "_facets.vtp", write_facets_vtp(mesh));
     if (job.writes("gocad"))  // tetrahedra only
       if (const Result<std::string> solid = write_gocad_so(mesh, job.header.name)) add(product + ".so", *solid);
@@ -85,7 +87,43 @@ std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts) {
     if (job.writes("abaqus")) add(product + ".inp", write_abaqus(mesh));
   };
   if (report.tets && report.tets_quality && job.makes("tets")) add_volume("tets", *report.tets);
+  if (report.hexes && report.simulation && job.makes("hexes")) {
+    add_volume("hexes", report.hexes->live.mesh, report.simulation->fields);
+    add("hexes.grdecl", report.simulation->grdecl);
+    if (!report.simulation->deck.empty()) {
+      add("hexes.data", report.simulation->deck);
+      add("hexes_regions.inc", report.simulation->regions);
+    }
+    add("hexes_plan.vtp", write_quads_vtp(report.hex_plan->mesh));
+    add("hexes_singular.vtp", write_lines_vtp(report.hexes->audit.singular_lines, report.hexes->live.mesh.local_origin));
+  }
+  if (report.frames && job.makes("frames")) {
+    add("frames.vtu", write_vtu(report.frames->mesh, report.frames->directions));
+    add("frames_singular.vtp", write_lines_vtp(report.frames->singular, report.frames->mesh.local_origin));
+  }
   if (report.hybrid && report.hybrid_quality && job.makes("hybrid")) add_volume("hybrid", report.hybrid->mesh);
+  return files;
+}
+
+std::vector<RunFile> inspection_files(const JobReport& report, const RunFacts& facts) {
+  const Job& job = *report.job;
+  const bool is_plan = !job.makes("quads");
+  const auto& problem = is_plan ? report.hex_plan_problem : report.plan_problem;
+  if (!problem || (is_plan ? report.hex_plan : report.quads)) return {};
+  std::vector<RunFile> files;
+  const auto add = [&](const std::string& name, const std::string& text) { files.push_back({name, bytes_of(text)}); };
+  add("report.json", report_json(report));
+  add("job.toml", resolved_job_text(job, facts.run_folder));
+  add("log.txt", log_text(report, facts));
+  add("plan_problem.vtp", write_feature_mesh_vtp(*problem, nullptr, nullptr));
+  if (report.frame_field && report.frame_field->why_not.empty())
+    add("frame_field.vtp", write_feature_mesh_vtp(*problem, &report.frame_field->value.field, nullptr));
+  if (report.seamless_map && report.seamless_map->why_not.empty()) {
+    const FieldAndMap& found = report.seamless_map->value;
+    add("seamless_map.vtp", write_feature_mesh_vtp(*problem, &found.field.field, &found.map.map));
+  }
+  if (report.grid && report.grid->why_not.empty())
+    add("quantize.vtp", write_feature_mesh_vtp(report.grid->value.mesh, nullptr, &report.grid->value.map));
   return files;
 }
 

@@ -19,4 +19,9 @@ struct RunFacts {
 /// formats the job asks for.
 std::vector<RunFile> run_files(const JobReport& report, const RunFacts& facts);
 
+/// What a failed job leaves for inspection: report.json, job.toml, log.txt and, of each stage of the quads that succeeded
+/// (or of the plan of hexes, if no quads are made), a VTK file called after it. Empty if none of them did, or the quads
+/// are not what failed.
+std::vector<RunFile> inspection_files(const JobReport& report, const RunFacts& facts);
+
 }  // namespace strataflow

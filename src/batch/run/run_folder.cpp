@@ -127,13 +127,16 @@ Result<void> replace_by_renames(const fs::path& part, const fs::path& folder) {
 }
 
 bool is_run_file(std::string_view name) {
-  static constexpr std::array<std::string_view, 5> fixed = {"report.json", "timing.json", "report.html", "job.toml",
-                                                            "log.txt"};
-  static constexpr std::array<std::string_view, 8> products = {"model",  "voronoi", "surfaces", "tets",
-                                                               "hybrid", "quads",   "hexes",    "complexity"};
+  static constexpr std::array<std::string_view, 9> fixed = {
+      "report.json",      "timing.json",     "report.html",      "job.toml",    "log.txt",
+      "plan_problem.vtp", "frame_field.vtp", "seamless_map.vtp", "quantize.vtp"};
+  static constexpr std::array<std::string_view, 9> products = {"model",  "voronoi", "surfaces", "tets",
+                                                               "hybrid", "quads",   "hexes",    "frames",
+                                                               "complexity"};
   if (std::find(fixed.begin(), fixed.end(), name) != fixed.end()) return true;
   std::string_view stem = name.substr(0, name.find('.'));
-  if (stem.ends_with("_facets")) stem.remove_suffix(7);
+  for (const std::string_view ending : {"_facets", "_plan", "_regions", "_singular"})
+    if (stem.ends_with(ending)) stem.remove_suffix(ending.size());
   return name.find('.') != std::string_view::npos &&
          std::find(products.begin(), products.end(), stem) != products.end();
 }
@@ -184,6 +187,16 @@ Result<void> replace_run_folder(const fs::path& folder, const std::vector<RunFil
   }
   if (fs::exists(part, error)) clear_away(part, folder);
   return {};
+}
+
+void remove_run_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(fs::symlink_status(folder, error)) || !fs::exists(folder / "report.json", error)) return;
+  std::vector<fs::path> ours;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
+    if (is_run_file(entry.path().filename().string())) ours.push_back(entry.path());
+  for (const fs::path& file : ours) fs::remove(file, error);
+  fs::remove(folder, error);  // if it is empty now
 }
 
 }  // namespace strataflow

@@ -24,6 +24,9 @@ Result<void> check_run_folder(const std::filesystem::path& folder);
 /// viewer's state) are carried over; leftovers of killed runs are cleared away. Fails with write_failed.
 Result<void> replace_run_folder(const std::filesystem::path& folder, const std::vector<RunFile>& files);
 
+/// Removes a run folder, but for files in it that are not ours. What is no run folder stays; so does what cannot be removed.
+void remove_run_folder(const std::filesystem::path& folder);
+
 /// The exchange on file systems that have none (called by replace_run_folder): `folder` steps aside, `part` takes its
 /// place, the old content ends where `part` was. A run killed in between leaves the old folder aside; the next
 /// replace_run_folder puts it back first. Fails with write_failed; then `folder` is as it was.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
@@ -17,7 +18,8 @@ namespace {
 /// Statements of a .geo script. The first problem sticks: later reads give nothing.
 class GeoScript {
  public:
-  GeoScript(std::string_view text, const std::string& file_name) : text_(text), file_name_(file_name) {}
+  GeoScript(std::string_view text, const std::string& file_name, const IncludeReader& read_include)
+      : source_{text, file_name, 0}, read_include_(read_include) {}
 
   struct Line {
     std::array<std::int64_t, 2> points;
@@ -29,27 +31,31 @@ class GeoScript {
   std::vector<std::string> curve_groups;
 
   std::optional<Failure> run() {
-    while (!failure_ && (skip(), place_ < text_.size())) statement();
-    return failure_;
+    for (;;) {
+      while (!failure_ && (skip(), source_.place < source_.text.size())) statement();
+      if (failure_ || including_.empty()) return failure_;
+      source_ = including_.back();
+      including_.pop_back();
+    }
   }
 
  private:
   void fail(FailureCode code, const std::string& what, const std::string& remedy) {
     if (failure_) return;
-    const auto line = 1 + std::count(text_.begin(), text_.begin() + static_cast<std::ptrdiff_t>(std::min(place_, text_.size())), '\n');
-    failure_ = Failure{code, file_name_ + ":" + std::to_string(line) + ": " + what, remedy};
+    const auto line = 1 + std::count(source_.text.begin(), source_.text.begin() + static_cast<std::ptrdiff_t>(std::min(source_.place, source_.text.size())), '\n');
+    failure_ = Failure{code, source_.name + ":" + std::to_string(line) + ": " + what, remedy};
   }
   void malformed(const std::string& what) { fail(FailureCode::malformed_file, what, "export the section again as .geo"); }
 
   void skip() {
-    while (place_ < text_.size()) {
-      if (static_cast<unsigned char>(text_[place_]) <= ' ') {
-        ++place_;
-      } else if (text_.substr(place_, 2) == "//") {
-        place_ = std::min(text_.find('\n', place_), text_.size());
-      } else if (text_.substr(place_, 2) == "/*") {
-        const std::size_t end = text_.find("*/", place_);
-        place_ = end == std::string_view::npos ? text_.size() : end + 2;
+    while (source_.place < source_.text.size()) {
+      if (static_cast<unsigned char>(source_.text[source_.place]) <= ' ') {
+        ++source_.place;
+      } else if (source_.text.substr(source_.place, 2) == "//") {
+        source_.place = std::min(source_.text.find('\n', source_.place), source_.text.size());
+      } else if (source_.text.substr(source_.place, 2) == "/*") {
+        const std::size_t end = source_.text.find("*/", source_.place);
+        source_.place = end == std::string_view::npos ? source_.text.size() : end + 2;
       } else {
         break;
       }
@@ -57,8 +63,8 @@ class GeoScript {
   }
   bool take(char c) {
     skip();
-    if (failure_ || place_ >= text_.size() || text_[place_] != c) return false;
-    ++place_;
+    if (failure_ || source_.place >= source_.text.size() || source_.text[source_.place] != c) return false;
+    ++source_.place;
     return true;
   }
   void expect(char c) {
@@ -66,20 +72,20 @@ class GeoScript {
   }
   std::string_view word() {
     skip();
-    const std::size_t begin = place_;
+    const std::size_t begin = source_.place;
     const auto is_letter = [](char c) { return c == '_' || (c >= '0' && c <= '9') || ((c | 32) >= 'a' && (c | 32) <= 'z'); };
-    while (!failure_ && place_ < text_.size() && is_letter(text_[place_])) ++place_;
-    return text_.substr(begin, place_ - begin);
+    while (!failure_ && source_.place < source_.text.size() && is_letter(source_.text[source_.place])) ++source_.place;
+    return source_.text.substr(begin, source_.place - begin);
   }
   std::string quoted() {
     expect('"');
-    const std::size_t begin = place_, end = text_.find('"', place_);
+    const std::size_t begin = source_.place, end = source_.text.find('"', source_.place);
     if (failure_ || end == std::string_view::npos) {
       malformed("a name does not end");
       return {};
     }
-    place_ = end + 1;
-    return std::string(text_.substr(begin, end - begin));
+    source_.place = end + 1;
+    return std::string(source_.text.substr(begin, end - begin));
   }
 
   // Expressions: comparison of sums of products of numbers, constants and parentheses.
@@ -96,20 +102,26 @@ class GeoScript {
       return value;
     }
     skip();
-    const std::size_t begin = place_;
-    if (place_ < text_.size() && (text_[place_] == '.' || (text_[place_] >= '0' && text_[place_] <= '9'))) {
-      while (place_ < text_.size() && ((text_[place_] >= '0' && text_[place_] <= '9') || text_[place_] == '.' ||
-                                       (text_[place_] | 32) == 'e' ||
-                                       ((text_[place_] == '-' || text_[place_] == '+') && (text_[place_ - 1] | 32) == 'e')))
-        ++place_;
-      const auto value = TextScanner::number_from(text_.substr(begin, place_ - begin));
-      if (!value) malformed("'" + shown(text_.substr(begin, place_ - begin)) + "' is no number");
+    const std::size_t begin = source_.place;
+    if (source_.place < source_.text.size() && (source_.text[source_.place] == '.' || (source_.text[source_.place] >= '0' && source_.text[source_.place] <= '9'))) {
+      while (source_.place < source_.text.size() && ((source_.text[source_.place] >= '0' && source_.text[source_.place] <= '9') || source_.text[source_.place] == '.' ||
+                                       (source_.text[source_.place] | 32) == 'e' ||
+                                       ((source_.text[source_.place] == '-' || source_.text[source_.place] == '+') && (source_.text[source_.place - 1] | 32) == 'e')))
+        ++source_.place;
+      const auto value = TextScanner::number_from(source_.text.substr(begin, source_.place - begin));
+      if (!value) malformed("'" + shown(source_.text.substr(begin, source_.place - begin)) + "' is no number");
       return value.value_or(0);
     }
     const std::string_view name = word();
-    const auto found = constants_.find(std::string(name));
-    if (found != constants_.end()) return found->second;
-    malformed("expected a number, found '" + shown(name.empty() ? text_.substr(place_, 10) : name) + "'");
+    if (const auto found = constants_.find(std::string(name)); found != constants_.end()) return found->second;
+    if (const auto found = lists_.find(std::string(name)); found != lists_.end() && take('(')) {
+      const double index = sum(depth + 1);
+      expect(')');
+      if (!failure_ && !(index >= 0 && index < static_cast<double>(found->second.size()) && index == std::floor(index)))
+        malformed("the list '" + std::string(name) + "' has no such element");
+      return failure_ ? 0 : found->second[static_cast<std::size_t>(index)];
+    }
+    malformed("expected a number, found '" + shown(name.empty() ? source_.text.substr(source_.place, 10) : name) + "'");
     return 0;
   }
   double product(int depth) {
@@ -153,6 +165,84 @@ class GeoScript {
     expect('}');
     return list;
   }
+  std::array<double, 3> triple() {
+    std::array<double, 3> at{};
+    expect('{');
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (k > 0) expect(',');
+      at[k] = number();
+    }
+    return at;
+  }
+  /// `Point{:}`, `Surface{:}`: entities of a kind, all of them.
+  void all_entities() {
+    const std::string_view kind = word();
+    if (kind != "Point" && kind != "Curve" && kind != "Line" && kind != "Surface") return unsupported(kind);
+    expect('{');
+    if (!take(':')) return unsupported(std::string(kind) + "{…} of some only");
+    expect('}');
+  }
+  std::vector<double> bounding_box() {
+    word();  // of which kind
+    expect('{');
+    all_entities();
+    expect('}');
+    std::vector<double> box(6, 0);
+    bool is_first = true;
+    for (const auto& [number_of, at] : points)
+      for (int k = 0; k < 3; ++k) {
+        double &low = box[static_cast<std::size_t>(k)], &high = box[static_cast<std::size_t>(3 + k)];
+        low = is_first ? at[k] : std::min(low, at[k]);
+        high = is_first ? at[k] : std::max(high, at[k]);
+        if (k == 2) is_first = false;
+      }
+    return box;
+  }
+  void dilate() {
+    expect('{');
+    const auto centre = triple();
+    expect('}');
+    expect(',');
+    std::array<double, 3> factor_of{};
+    if (skip(), source_.place < source_.text.size() && source_.text[source_.place] == '{') {
+      factor_of = triple();
+      expect('}');
+    } else {
+      factor_of.fill(number());
+    }
+    expect('}');
+    expect('{');
+    all_entities();
+    take(';');
+    expect('}');
+    if (failure_) return;
+    for (auto& [number_of, at] : points)
+      for (int k = 0; k < 3; ++k) {
+        const double c = centre[static_cast<std::size_t>(k)];
+        at[k] = c + factor_of[static_cast<std::size_t>(k)] * (at[k] - c);
+        if (!std::isfinite(at[k])) return malformed("a point is moved to infinity");
+      }
+  }
+  void include() {
+    const std::string written = quoted();
+    take(';');
+    if (failure_) return;
+    const std::size_t slash = source_.name.find_last_of('/');
+    const bool is_beside = slash != std::string::npos && !written.starts_with('/');
+    const std::string name = is_beside ? source_.name.substr(0, slash + 1) + written : written;
+    if (including_.size() >= deepest_include)
+      return malformed("files include each other more than " + std::to_string(deepest_include) + " deep, '" + written +
+                       "' among them");
+    if (!read_include_)
+      return fail(FailureCode::unsupported, "'" + written + "' is included, which is not at hand here",
+                  "put both files into a folder, unpacked");
+    Result<std::string> text = read_include_(name);
+    if (!text)
+      return fail(text.failure().code, "includes '" + written + "': " + text.failure().what, text.failure().remedy);
+    including_.push_back(std::move(source_));
+    source_ = {included_texts_.emplace_back(std::move(*text)), name, 0};
+  }
+
   std::int64_t entity_number() {
     expect('(');
     const std::int64_t number = tag();
@@ -182,14 +272,15 @@ class GeoScript {
       return;
     } else if (first == "EndIf") {
       return;
+    } else if (first == "Include") {
+      return include();
+    } else if (first == "Dilate") {
+      dilate();
+      take(';');
+      return;
     } else if (first == "Point") {
       const std::int64_t number_of = entity_number();
-      expect('{');
-      std::array<double, 3> at{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        if (k > 0) expect(',');
-        at[k] = number();
-      }
+      const auto at = triple();
       if (take(',')) number();  // a mesh size
       expect('}');
       if (!failure_) points[number_of] = {at[0], at[1], at[2]};
@@ -210,13 +301,18 @@ class GeoScript {
       if (kind != "Curve" && kind != "Line" && kind != "Surface" && kind != "Point") return unsupported("Physical");
       expect('(');
       skip();
-      std::string name = place_ < text_.size() && text_[place_] == '"' ? quoted() : std::to_string(tag());
+      std::string name = source_.place < source_.text.size() && source_.text[source_.place] == '"' ? quoted() : std::to_string(tag());
       if (take(',')) tag();
       expect(')');
       expect('=');
       for (const std::int64_t member : tags())
         if (kind == "Surface") surface_group[member] = name;
       if (kind != "Surface") curve_groups.push_back(name);
+    } else if (!first.empty() && take('(')) {
+      if (!take(')')) return unsupported(first);
+      expect('=');
+      if (word() != "BoundingBox") return unsupported(first);
+      lists_[std::string(first)] = bounding_box();
     } else if (take('=')) {
       const double value = number();
       if (!failure_) constants_[std::string(first)] = value;
@@ -226,23 +322,33 @@ class GeoScript {
     expect(';');
   }
   void unsupported(std::string_view what) {
-    fail(FailureCode::unsupported, "'" + shown(what.empty() ? text_.substr(place_, 20) : what) + "' is not read",
+    fail(FailureCode::unsupported, "'" + shown(what.empty() ? source_.text.substr(source_.place, 20) : what) + "' is not read",
          "a section is made of Point, Line, Curve Loop, Plane Surface and Physical");
   }
   void skip_to_end_if() {
     for (int depth = 1; depth > 0;) {
       skip();
-      if (place_ >= text_.size()) return malformed("If without EndIf");
+      if (source_.place >= source_.text.size()) return malformed("If without EndIf");
       const std::string_view next = word();
       depth += next == "If" ? 1 : next == "EndIf" ? -1 : 0;
-      if (next.empty()) ++place_;
+      if (next.empty()) ++source_.place;
     }
   }
 
-  std::string_view text_;
-  const std::string& file_name_;
-  std::size_t place_ = 0;
+  /// A file being read.
+  struct Source {
+    std::string_view text;
+    std::string name;
+    std::size_t place = 0;
+  };
+  static constexpr std::size_t deepest_include = 16;
+
+  Source source_;
+  std::vector<Source> including_;  ///< the files whose Include led to this one, outermost first
+  std::deque<std::string> included_texts_;
+  const IncludeReader& read_include_;
   std::map<std::string, double> constants_;
+  std::map<std::string, std::vector<double>> lists_;
   std::optional<Failure> failure_;
 };
 
@@ -303,7 +409,12 @@ double area_of(const Polyline& line) {
 }  // namespace
 
 Result<InputData> read_geo(std::string_view bytes, const std::string& file_name) {
-  GeoScript script(bytes, file_name);
+  return read_geo_including(bytes, file_name, {});
+}
+
+Result<InputData> read_geo_including(std::string_view bytes, const std::string& file_name,
+                                     const IncludeReader& read_include) {
+  GeoScript script(bytes, file_name, read_include);
   if (const auto failure = script.run()) return *failure;
   const auto broken = [&](const std::string& what) {
     return Failure{FailureCode::malformed_file, file_name + ": " + what, "export the section again as .geo"};

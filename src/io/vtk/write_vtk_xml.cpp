@@ -1,6 +1,8 @@
 #include "io/vtk/write_vtk_xml.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <string_view>
 #include <type_traits>
@@ -235,36 +237,145 @@ std::string write_voronoi_vtp(const LabelledTriangles& surfaces, const Restricte
   return std::move(file).finish();
 }
 
-std::string write_quads_vtp(const QuadMesh& mesh) {
+namespace {
+
+/// Names and roles of features, and one line per edge on them.
+struct FeatureLines {
   std::vector<std::string> names, roles;
-  for (const Feature& feature : mesh.features) {
-    names.push_back(feature.name);
-    roles.emplace_back(to_string(feature.role));
-  }
   std::vector<std::int32_t> feature;
-  std::vector<std::int64_t> line_points, line_offsets, quad_points, quad_offsets;
-  for (const FeatureEdge& edge : mesh.edges) {
-    feature.push_back(signed_index(edge.feature));
-    line_points.insert(line_points.end(), {edge.a, edge.b});
-    line_offsets.push_back(static_cast<std::int64_t>(line_points.size()));
+  std::vector<std::int64_t> points, offsets;
+  template <class Mesh>
+  explicit FeatureLines(const Mesh& mesh) {
+    for (const Feature& of : mesh.features) {
+      names.push_back(of.name);
+      roles.emplace_back(to_string(of.role));
+    }
+    for (const FeatureEdge& edge : mesh.edges) {
+      feature.push_back(signed_index(edge.feature));
+      points.insert(points.end(), {edge.a, edge.b});
+      offsets.push_back(static_cast<std::int64_t>(points.size()));
+    }
   }
+  void write_names(VtkXmlFile& file) const {
+    file.open("FieldData");
+    file.string_field("feature_names", names);
+    file.string_field("feature_roles", roles);
+    file.close("FieldData");
+  }
+};
+
+}  // namespace
+
+std::string write_quads_vtp(const QuadMesh& mesh) {
+  FeatureLines lines(mesh);
+  std::vector<std::int64_t> quad_points, quad_offsets;
   for (const auto& quad : mesh.quads) {
-    feature.push_back(-1);
+    lines.feature.push_back(-1);
     quad_points.insert(quad_points.end(), quad.begin(), quad.end());
     quad_offsets.push_back(static_cast<std::int64_t>(quad_points.size()));
   }
   VtkXmlFile file("PolyData");
-  file.open("FieldData");
-  file.string_field("feature_names", names);
-  file.string_field("feature_roles", roles);
-  file.close("FieldData");
+  lines.write_names(file);
   file.open(polys_piece(mesh.points.size(), mesh.quads.size(), mesh.edges.size()));
   file.open("CellData");
-  file.array("feature", feature);
+  file.array("feature", lines.feature);
   file.close("CellData");
   write_points(file, mesh.points, mesh.local_origin);
-  write_cells(file, "Lines", line_points, line_offsets);
+  write_cells(file, "Lines", lines.points, lines.offsets);
   write_polys(file, quad_points, quad_offsets);
+  file.close("Piece");
+  return std::move(file).finish();
+}
+
+std::string write_lines_vtp(std::span<const Polyline> lines, const Vec3& local_origin) {
+  std::vector<Vec3> points;
+  std::vector<std::string> names;
+  std::vector<std::int32_t> number;
+  std::vector<std::int64_t> connectivity, offsets;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto first = static_cast<std::int64_t>(points.size());
+    for (const Vec3& p : lines[i].points) {
+      connectivity.push_back(static_cast<std::int64_t>(points.size()));
+      points.push_back(p);
+    }
+    if (lines[i].is_closed && !lines[i].points.empty()) connectivity.push_back(first);
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    names.push_back(lines[i].name);
+    number.push_back(signed_index(static_cast<std::uint32_t>(i)));
+  }
+  VtkXmlFile file("PolyData");
+  file.open("FieldData");
+  file.string_field("line_names", names);
+  file.close("FieldData");
+  file.open(polys_piece(points.size(), 0, lines.size()));
+  file.open("CellData");
+  file.array("line", number);
+  file.close("CellData");
+  write_points(file, points, local_origin);
+  write_cells(file, "Lines", connectivity, offsets);
+  write_polys(file, {}, {});
+  file.close("Piece");
+  return std::move(file).finish();
+}
+
+std::string write_feature_mesh_vtp(const FeatureMesh& mesh, const FrameField* field, const CornerMap* map) {
+  FeatureLines lines(mesh);
+  const std::size_t line_count = mesh.edges.size();
+  std::vector<Vec3> points = mesh.points;  // of the lines; of the triangles too without a map
+  std::vector<std::uint32_t> source(points.size());
+  std::iota(source.begin(), source.end(), 0u);
+  std::vector<std::int64_t> connectivity, offsets;
+  std::array<std::vector<double>, 2> uv, direction;
+  for (auto& vectors : direction) vectors.assign(3 * line_count, 0.0);
+  for (auto& values : uv) values.assign(points.size(), 0.0);
+  for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+    lines.feature.push_back(-1);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = mesh.triangles[t][k];
+      connectivity.push_back(map ? static_cast<std::int64_t>(points.size()) : p);
+      if (!map) continue;
+      points.push_back(mesh.points[p]);
+      source.push_back(p);
+      for (std::size_t axis = 0; axis < 2; ++axis) uv[axis].push_back(map->uv[3 * t + k][axis]);
+    }
+    offsets.push_back(static_cast<std::int64_t>(connectivity.size()));
+    if (!field) continue;
+    const Vec3 &a = mesh.points[mesh.triangles[t][0]], &b = mesh.points[mesh.triangles[t][1]],
+               &c = mesh.points[mesh.triangles[t][2]];
+    const Vec3 along = b - a, normal = cross(along, c - a);
+    const Vec3 x = (1 / length(along)) * along, y = (1 / length(normal)) * cross(normal, x);
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Vec3 arm = std::cos(field->angles[t][k]) * x + std::sin(field->angles[t][k]) * y;
+      direction[k].insert(direction[k].end(), {arm.x, arm.y, arm.z});
+    }
+  }
+  std::vector<std::int32_t> corner, valence;
+  const std::vector<std::int8_t>* of = field ? &field->valence : map ? &map->valence : nullptr;
+  for (const std::uint32_t p : source) {
+    corner.push_back(std::binary_search(mesh.corners.begin(), mesh.corners.end(), p) ? 1 : 0);
+    if (of) valence.push_back((*of)[p]);
+  }
+  VtkXmlFile file("PolyData");
+  lines.write_names(file);
+  file.open(polys_piece(points.size(), mesh.triangles.size(), line_count));
+  file.open("PointData");
+  file.array("corner", corner);
+  if (of) file.array("valence", valence);
+  if (map) {
+    file.array("u", uv[0]);
+    file.array("v", uv[1]);
+  }
+  file.close("PointData");
+  file.open("CellData");
+  file.array("feature", lines.feature);
+  if (field) {
+    file.array("direction_0", direction[0], 3);
+    file.array("direction_1", direction[1], 3);
+  }
+  file.close("CellData");
+  write_points(file, points, mesh.local_origin);
+  write_cells(file, "Lines", lines.points, lines.offsets);
+  write_polys(file, connectivity, offsets);
   file.close("Piece");
   return std::move(file).finish();
 }
@@ -285,7 +396,9 @@ std::string write_vtu(const VolumeMesh& mesh, std::span<const CellField> fields)
   file.array("region", mesh.cell_region.size() == mesh.cell_count() ? mesh.cell_region : none);
   file.array("entity", mesh.cell_entity.size() == mesh.cell_count() ? mesh.cell_entity : none);
   for (const CellField& field : fields)
-    if (field.values.size() == mesh.cell_count()) file.array(field.name, field.values);
+    for (const std::size_t width : {1u, 3u})
+      if (field.values.size() == width * mesh.cell_count() && mesh.cell_count() > 0)
+        file.array(field.name, field.values, width);
   file.close("CellData");
   write_points(file, mesh.points, mesh.local_origin);
   std::vector<std::uint8_t> types;

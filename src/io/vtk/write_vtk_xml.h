@@ -4,6 +4,8 @@
 
 #include "io/input/labelled_triangles.h"
 #include "model/cell_field.h"
+#include "model/corner_map.h"
+#include "model/input_data.h"
 #include "model/quad_mesh.h"
 #include "model/restricted_diagram.h"
 #include "model/volume_mesh.h"
@@ -26,7 +28,7 @@ std::string write_voronoi_vtp(const LabelledTriangles& surfaces, const Restricte
 /// that hold VTK's string arrays.
 std::string write_vtu(const VolumeMesh& mesh);
 
-/// The same with further cell arrays. A field without one value per cell is left out.
+/// The same with further cell arrays: one value per cell, or three as a vector. Other fields are left out.
 std::string write_vtu(const VolumeMesh& mesh, std::span<const CellField> fields);
 
 /// The facets of a mesh, with cell arrays `surface`, `entity`, `cell_0`, `cell_1` (-1: outside). Points are numbered as
@@ -36,5 +38,14 @@ std::string write_facets_vtp(const VolumeMesh& mesh);
 /// Quads as polygons, and before them one line per quad edge on a feature; cell array `feature` (-1: a quad). Field data
 /// `feature_names`, `feature_roles` (strings).
 std::string write_quads_vtp(const QuadMesh& mesh);
+
+/// Lines as polylines, closed ones back to their first point; cell array `line`; field data `line_names`.
+std::string write_lines_vtp(std::span<const Polyline> lines, const Vec3& local_origin);
+
+/// The triangulation that quads are made on, and before it one line per edge on a feature, as write_quads_vtp has them.
+/// Point array `corner` (1: becomes a vertex of quads). With a field: `valence` (point array, of quads to be) and the
+/// directions `direction_0`, `direction_1` (cell arrays, unit vectors in the triangle; 0 on lines). With a map: `valence`
+/// too, and triangles share no points, so that these can carry `u` and `v` (0 on lines).
+std::string write_feature_mesh_vtp(const FeatureMesh& mesh, const FrameField* field, const CornerMap* map);
 
 }  // namespace strataflow

@@ -33,7 +33,8 @@ Result<void> judge_flips(const LayeredSpace& space) {
                  std::to_string(space.flipped.size()) + " tetrahedra turn over between the horizons, most of them in " +
                      (worst < space.model.region_names.size() ? space.model.region_names[worst]
                                                               : "region " + std::to_string(worst)),
-                 "mesh this region finer, or leave out the horizon that overturns"};
+                 "build on surfaces with better triangles (output.from = \"surfaces\"), mesh this region finer, or leave out "
+                 "the horizon that overturns"};
 }
 
 }  // namespace
@@ -67,7 +68,17 @@ Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels
   return space;
 }
 
-Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
+Result<LayeredSpace> build_layered_space(UprightModel upright, const LayerOptions& options) {
+  Result<LayeredSpace> space =
+      build_layered_space(std::move(upright.model), std::move(upright.levels), std::move(upright.plan), options);
+  if (!space) return space;
+  space->lines = std::move(upright.lines);
+  space->turned_over_at_first = upright.turned_over_at_first;
+  space->untangling_steps = upright.untangling_steps;
+  return space;
+}
+
+Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
   Result<LabelledTets> tets = label_tets(mesh, options.drop_alignment);
   if (!tets) return tets.failure();
   Result<StratigraphicLevels> levels = find_stratigraphic_levels(*tets);
@@ -81,13 +92,14 @@ Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpa
   Result<UprightPlan> upright = verticalise(*tets, {options.untangling_steps});
   if (!upright) return upright.failure();
   std::vector<Polyline> lines = plan_lines(*tets, *upright, options.follow_horizon_lines);
-  Result<LayeredSpace> space =
-      build_layered_space(std::move(*tets), std::move(*levels), std::move(upright->plan), options.layers);
-  if (!space) return space;
-  space->lines = std::move(lines);
-  space->turned_over_at_first = upright->flipped_by_linear;
-  space->untangling_steps = upright->untangling_steps;
-  return space;
+  return UprightModel{std::move(*tets),  std::move(*levels),         std::move(upright->plan),
+                      std::move(lines),  upright->flipped_by_linear, upright->untangling_steps};
+}
+
+Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
+  Result<UprightModel> upright = make_upright(mesh, options);
+  if (!upright) return upright.failure();
+  return build_layered_space(*std::move(upright), options.layers);
 }
 
 }  // namespace strataflow

@@ -26,6 +26,20 @@ struct LayeredSpace {
   }
 };
 
+/// A model in its plan, where faults stand upright, before it has layers.
+struct UprightModel {
+  LabelledTets model;
+  StratigraphicLevels levels;
+  std::vector<Vec3> plan;       ///< per point of the model: u, v, 0
+  std::vector<Polyline> lines;  ///< what quads over the plan must follow (plan_lines)
+  std::uint32_t turned_over_at_first = 0;  ///< as in LayeredSpace
+  std::uint32_t untangling_steps = 0;
+  template <class A>
+  void archive(A& a) {
+    a(model, levels, plan, lines, turned_over_at_first, untangling_steps);
+  }
+};
+
 struct LayeredSpaceOptions {
   std::vector<std::string> drop_alignment;  ///< entities that need not be followed
   LayerOptions layers;
@@ -33,8 +47,11 @@ struct LayeredSpaceOptions {
   std::int64_t untangling_steps = 600;      ///< ≥ 0: at most, where faults are far from upright
 };
 
-/// From the tetrahedra of a model to its layered space: labels, levels, upright faults, layers. Fails with what
-/// label_tets, find_stratigraphic_levels, verticalise and build_layered_space fail with.
+/// From the tetrahedra of a model to their plan: labels, levels, upright faults; `options.layers` says nothing here. Fails
+/// with what label_tets, find_stratigraphic_levels and verticalise fail with.
+Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOptions& options = {});
+
+/// From the tetrahedra of a model to its layered space: make_upright, then build_layered_space.
 Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options = {});
 
 /// Ends the way into layers for a model whose plan is known: finds W, and splits edges of tetrahedra that come out
@@ -42,5 +59,6 @@ Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpa
 /// and with geometry_failed, naming the region, when more than 1/10 000 of the volume stays flipped.
 Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels levels, std::vector<Vec3> plan,
                                          const LayerOptions& options = {});
+Result<LayeredSpace> build_layered_space(UprightModel upright, const LayerOptions& options = {});
 
 }  // namespace strataflow

@@ -57,6 +57,24 @@ std::map<Edge, std::vector<Edge>> horizon_meetings(const LabelledTets& tets) {
 
 }  // namespace
 
+std::optional<Vec3> plan_position(const LabelledTets& tets, const std::vector<Vec3>& plan, double x, double y) {
+  for (const SheetFacet& facet : tets.facets) {
+    if (facet.kind != SheetKind::top) continue;
+    std::array<double, 3> share{};  // barycentric, times twice the area seen from above
+    double all = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = tets.points[facet.vertices[(k + 1) % 3]], &b = tets.points[facet.vertices[(k + 2) % 3]];
+      share[k] = (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x);
+      all += share[k];
+    }
+    if (all == 0 || std::any_of(share.begin(), share.end(), [&](double s) { return s / all < 0; })) continue;
+    Vec3 position;
+    for (std::size_t k = 0; k < 3; ++k) position = position + (share[k] / all) * plan[facet.vertices[k]];
+    return position;
+  }
+  return std::nullopt;
+}
+
 std::vector<PointChain> chain_edges(std::vector<Edge> edges) {
   for (Edge& edge : edges) std::sort(edge.begin(), edge.end());
   std::sort(edges.begin(), edges.end());

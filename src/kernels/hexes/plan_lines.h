@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "kernels/hexes/verticalise.h"
@@ -11,6 +12,10 @@ namespace strataflow {
 /// lines where horizons meet, as curves "H3-E". Coordinates are relative to the model's local origin. Faults come by
 /// entity, pieces by their first point.
 std::vector<Polyline> plan_lines(const LabelledTets& tets, const UprightPlan& upright, bool with_horizon_lines = false);
+
+/// Where the point of the top seen at (x, y) from above lies in the plan; nothing beside the model. `plan` holds (u, v)
+/// per point of the model.
+std::optional<Vec3> plan_position(const LabelledTets& tets, const std::vector<Vec3>& plan, double x, double y);
 
 /// Chains edges into polylines that end where other than two meet; closed ones do not repeat their first point.
 struct PointChain {

@@ -15,6 +15,10 @@ struct HexSmoothing {
   double min_before = 0, min_after = 0;  ///< scaled Jacobian, over cells with a volume
   std::uint64_t moves = 0;
   std::int64_t sweeps = 0;  ///< done
+  template <class A>
+  void archive(A& a) {
+    a(min_before, min_after, moves, sweeps);
+  }
 };
 
 /// Moves vertices so that the worst scaled Jacobian of the cells around each never falls and mostly rises. Vertices over

@@ -26,8 +26,12 @@ double six_volumes(const std::vector<Vec3>& p, const Tet& t) {
   return dot(p[t[1]] - p[t[0]], cross(p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]));
 }
 
-/// Whole numbers per level: 0 at the bottom, the sum of the layers at the top.
-Result<std::vector<std::uint32_t>> heights_of_levels(const LabelledTets& tets, const StratigraphicLevels& levels,
+struct LayerPlan {
+  std::vector<std::uint32_t> heights;  ///< whole numbers per level: 0 at the bottom, the sum of the layers at the top
+  std::vector<UnitLayers> units;
+};
+
+Result<LayerPlan> plan_layers(const LabelledTets& tets, const StratigraphicLevels& levels,
                                                      const LayerOptions& options) {
   if (options.layers < 1) return bad_option("layers must be at least 1", "raise it");
   if (options.thickness_m && !(*options.thickness_m > 0 && std::isfinite(*options.thickness_m)))
@@ -37,6 +41,9 @@ Result<std::vector<std::uint32_t>> heights_of_levels(const LabelledTets& tets, c
       return bad_option("unit_layers names '" + unit + "', which is the roof of no unit", "name a horizon, or Top");
     if (count < 1) return bad_option("unit_layers must be at least 1, for " + unit, "raise it");
   }
+  for (const auto& [unit, layout] : options.unit_layout)
+    if (std::find(levels.names.begin() + 1, levels.names.end(), unit) == levels.names.end())
+      return bad_option("unit_layout names '" + unit + "', which is the roof of no unit", "name a horizon, or Top");
   std::vector<double> volume(levels.unit_count(), 0);
   for (std::size_t t = 0; t < tets.tets.size(); ++t) volume[levels.unit[t]] += six_volumes(tets.points, tets.tets[t]) / 6;
   double area = 0;
@@ -45,7 +52,7 @@ Result<std::vector<std::uint32_t>> heights_of_levels(const LabelledTets& tets, c
     const Vec3 &p = tets.points[facet.vertices[0]], &q = tets.points[facet.vertices[1]];
     area += 0.5 * std::abs(cross(q - p, tets.points[facet.vertices[2]] - p).z);
   }
-  std::vector<std::uint32_t> heights{0};
+  LayerPlan plan{{0}, {}};
   std::int64_t sum = 0;
   for (std::uint32_t unit = 0; unit < levels.unit_count(); ++unit) {
     std::int64_t count = options.layers;
@@ -56,19 +63,26 @@ Result<std::vector<std::uint32_t>> heights_of_levels(const LabelledTets& tets, c
       count = named->second;
     sum += std::min(count, most_layers);
     if (sum > most_layers) return bad_option("more than 100000 layers", "lower the counts or raise thickness_m");
-    heights.push_back(static_cast<std::uint32_t>(sum));
+    plan.heights.push_back(static_cast<std::uint32_t>(sum));
+    UnitLayers unit_layers{options.layout, 0};
+    if (const auto named = options.unit_layout.find(levels.names[unit + 1]); named != options.unit_layout.end())
+      unit_layers.layout = named->second;
+    unit_layers.thickness_m =
+        options.thickness_m.value_or(area > 0 ? volume[unit] / area / static_cast<double>(count) : 0);
+    plan.units.push_back(unit_layers);
   }
-  return heights;
+  return plan;
 }
 
 class FunctionSearch {
  public:
   FunctionSearch(const LabelledTets& tets, const StratigraphicLevels& levels) : tets_(tets), levels_(levels) {}
 
-  Result<StratigraphicTets> find(std::vector<std::uint32_t> heights) {
+  Result<StratigraphicTets> find(LayerPlan plan) {
     split_ = split_along_faults(tets_);
     ranges_ = level_ranges(tets_, levels_, split_);
-    result_.level_w = std::move(heights);
+    result_.level_w = std::move(plan.heights);
+    result_.units = std::move(plan.units);
     result_.level_names = levels_.names;
     make_copies();
     make_tets();
@@ -257,12 +271,13 @@ Result<StratigraphicTets> find_stratigraphic_function(const LabelledTets& tets, 
                                                       const LayerOptions& options) {
   if (tets.tets.size() > (std::size_t{1} << 28))
     return Failure{FailureCode::geometry_failed, "too many tetrahedra for layers", "coarsen the model"};
-  Result<std::vector<std::uint32_t>> heights = heights_of_levels(tets, levels, options);
-  if (!heights) return heights.failure();
-  return FunctionSearch(tets, levels).find(std::move(*heights));
+  Result<LayerPlan> plan = plan_layers(tets, levels, options);
+  if (!plan) return plan.failure();
+  return FunctionSearch(tets, levels).find(std::move(*plan));
 }
 
 std::vector<std::uint32_t> flipped_in_layers(const StratigraphicTets& tets, const std::vector<Vec3>& plan) {
+  constexpr double flat_ratio = 1e-9;  // of a prism around the tetrahedron; below it, rounding decides what it holds
   const auto at = [&](std::uint32_t copy) {
     const Vec3& p = plan[tets.point[copy]];
     return Vec3{p.x, p.y, tets.w[copy]};
@@ -270,8 +285,17 @@ std::vector<std::uint32_t> flipped_in_layers(const StratigraphicTets& tets, cons
   const std::vector<char> is_flipped = parallel_map(
       tets.tets.size(),
       [&](std::size_t t) -> char {
-        const Tet& v = tets.tets[t];
-        return orientation_3d(at(v[0]), at(v[1]), at(v[2]), at(v[3])) <= 0;
+        std::array<Vec3, 4> p;
+        for (std::size_t k = 0; k < 4; ++k) p[k] = at(tets.tets[t][k]);
+        if (orientation_3d(p[0], p[1], p[2], p[3]) <= 0) return 1;
+        double wide = 0, high = 0;
+        for (std::size_t i = 0; i < 4; ++i)
+          for (std::size_t j = 0; j < i; ++j) {
+            const Vec3 d = p[i] - p[j];
+            wide = std::max(wide, d.x * d.x + d.y * d.y);
+            high = std::max(high, std::abs(d.z));
+          }
+        return dot(p[1] - p[0], cross(p[2] - p[0], p[3] - p[0])) <= flat_ratio * wide * high;
       },
       1024);
   std::vector<std::uint32_t> flipped;

@@ -123,6 +123,31 @@ TetLocator::LevelPoint TetLocator::nearest_at_level(std::uint32_t tet, const Vec
   return best;
 }
 
+TetLocator::LevelPoint TetLocator::nearest_on_face(std::uint32_t tet, std::uint32_t k, const Vec3& p) const {
+  const std::array<Vec3, 4> all = corners(tet);
+  const auto& face = face_corners[k];
+  std::array<Vec3, 6> section;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3 &a = all[face[i]], &b = all[face[(i + 1) % 3]];
+    if (a.z == p.z) section[count++] = a;
+    if ((a.z < p.z && b.z > p.z) || (a.z > p.z && b.z < p.z)) {
+      section[count] = a + ((p.z - a.z) / (b.z - a.z)) * (b - a);
+      section[count++].z = p.z;
+    }
+  }
+  LevelPoint best{{}, std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t j = i; j < count; ++j) {
+      const Vec3 along = section[j] - section[i];
+      const double squared = dot(along, along);
+      const Vec3 q =
+          section[i] + (squared > 0 ? std::clamp(dot(p - section[i], along) / squared, 0.0, 1.0) : 0.0) * along;
+      if (length(q - p) < best.distance_m) best = {q, length(q - p)};
+    }
+  return best;
+}
+
 Vec3 TetLocator::lifted(std::uint32_t tet, const Vec3& p) const {
   const std::array<Vec3, 4> c = corners(tet);
   std::array<double, 4> weight;

@@ -36,6 +36,8 @@ class TetLocator {
     double distance_m = 0;
   };
   LevelPoint nearest_at_level(std::uint32_t tet, const Vec3& p) const;
+  /// The same of a face of a tetrahedron that is not level.
+  LevelPoint nearest_on_face(std::uint32_t tet, std::uint32_t k, const Vec3& p) const;
   /// The position in XYZ that the affine map of a tetrahedron gives to p, even outside of it.
   Vec3 lifted(std::uint32_t tet, const Vec3& p) const;
 

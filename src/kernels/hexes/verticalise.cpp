@@ -77,6 +77,14 @@ std::string worst_wall(const LabelledTets& tets, const WallSheets& sheets, const
   return *worst == 0 ? "no fault" : tets.entities[static_cast<std::size_t>(worst - count.begin())].name;
 }
 
+/// Share of all volume that some tetrahedra have.
+double volume_ratio(const std::vector<TetGradients>& gradients, const std::vector<std::uint32_t>& some) {
+  double all = 0, of_some = 0;
+  for (const TetGradients& tet : gradients) all += tet.volume_m3;
+  for (const std::uint32_t t : some) of_some += gradients[t].volume_m3;
+  return of_some / all;
+}
+
 }  // namespace
 
 bool stands_upright(const LabelledTets& tets) {
@@ -89,6 +97,7 @@ bool stands_upright(const LabelledTets& tets) {
 }
 
 Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptions& options) {
+  constexpr double tolerated_ratio = 1e-4;  // of the volume: slivers, which lifting leaves aside
   if (options.untangling_steps < 0)
     return Failure{FailureCode::invalid_options, "untangling_steps must not be negative", "use 600"};
   UprightPlan upright;
@@ -140,13 +149,15 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
     upright.untangling_steps = untangled.steps;
     place();
     over = turned_over(tets, upright.plan);
-    if (!over.empty()) {
+    if (volume_ratio(gradients, over) > tolerated_ratio) {
       const std::string name = worst_wall(tets, upright.sheets, over);
       return Failure{FailureCode::geometry_failed,
                      std::to_string(over.size()) + " tetrahedra stay turned over when faults are set upright, most at " +
                          name,
-                     "leave it out with drop_alignment = [\"" + name + "\"], or mesh finer"};
+                     "build on surfaces with better triangles (output.from = \"surfaces\"), mesh finer, or leave it out "
+                     "with drop_alignment = [\"" + name + "\"]"};
     }
+    upright.left_turned_over = static_cast<std::uint32_t>(over.size());
   }
   upright.smallest_determinant = std::numeric_limits<double>::infinity();
   for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {

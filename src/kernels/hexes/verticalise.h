@@ -20,6 +20,7 @@ struct UprightPlan {
   bool is_identity = false;     ///< everything stood upright already
   std::uint32_t flipped_by_linear = 0;  ///< tetrahedra the linear deformation turned over
   std::uint32_t untangling_steps = 0;
+  std::uint32_t left_turned_over = 0;   ///< tetrahedra, of 1/10 000 of the volume at most, that stay turned over
   double smallest_determinant = 1;      ///< of the deformation's gradient
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 
 #include "kernels/reference_models/polygon_triangulation.h"
 #include "kernels/reference_models/reference_plans.h"
@@ -80,6 +81,19 @@ TriangleSoup smooth_closed_surface(double edge_m) {
   add_ball(sheets, 0, 90, edge_m,
            [](const Vec3& p) { return 80 + 18 * p.x * p.x * p.x - 22 * p.y * p.y + 30 * p.x * p.y * p.z + 10 * p.z; });
   return sheets.take();
+}
+
+TriangleSoup torus(double edge_m) {
+  constexpr double ring = 70, tube = 30, turn = 2 * std::numbers::pi;
+  const std::uint32_t around = std::max(8u, parts_of(turn * ring, edge_m)), across = std::max(8u, parts_of(turn * tube, edge_m));
+  SheetSoup sheets({{"Skin", Role::boundary}});
+  sheets.add_grid(0, around + 1, across + 1, [&](std::uint32_t i, std::uint32_t j) {
+    // The last column and row are the first again, bit for bit, so that welding closes the ring.
+    const double u = turn * (double(i % around) / around), v = turn * (double(j % across) / across);
+    const double r = ring + tube * std::cos(v);
+    return Vec3{r * std::cos(u), r * std::sin(u), tube * std::sin(v)};
+  });
+  return sheets.take_welded();
 }
 
 TriangleSoup slab(double edge_m) {

@@ -12,6 +12,9 @@ TriangleSoup nested_spheres(double edge_m);
 /// One smooth closed surface, a ball of 100 m with dents and bulges (pellerin2014 §4.1 X16). Entity Skin.
 TriangleSoup smooth_closed_surface(double edge_m);
 
+/// A ring about the z axis: a circle of radius 30 m led around one of radius 70 m. Entity Skin.
+TriangleSoup torus(double edge_m);
+
 /// A plate of 1000 × 800 × 20 m (pellerin2014 §4.1 X11). Entities Top, Bottom, North, South, East, West.
 TriangleSoup slab(double edge_m);
 

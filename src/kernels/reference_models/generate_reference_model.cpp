@@ -74,6 +74,7 @@ constexpr std::array makers{
     Maker{.name = "bracket", .width_m = 200, .edge_m = 4, .plan = bracket, .has_raw = false},
     Maker{.name = "impeller", .width_m = 200, .edge_m = 4, .plan = impeller, .has_raw = false},
     Maker{.name = "smooth-closed", .width_m = 200, .edge_m = 4, .shape = smooth_closed_surface, .has_raw = false},
+    Maker{.name = "torus", .width_m = 200, .edge_m = 4, .shape = torus, .has_raw = false},
     Maker{.name = "veins", .width_m = 10200, .edge_m = 80, .plan = veins},
     Maker{.name = "onlap", .width_m = 110, .edge_m = 2.75, .plan = onlap},
     Maker{.name = "sandbox", .width_m = 3500, .edge_m = 150, .plan = sandbox},

@@ -23,7 +23,7 @@ const std::vector<std::string_view>& reference_model_names();
 /// - A1 … A6, B, C, D: the nine of pellerin2014 §4.2, rebuilt from their description: horizons H1 … (bottom up), faults
 ///   F1 … (west to east), erosion E, onlap surface U, Diapir, box sides Top, Bottom, North (+y), South, East (+x),
 ///   West. A1–A6, B and C fill the box 1600 × 930 × 500 m, D a cube of 120 m.
-/// - nested-spheres, slab, wedge, variable-layers, bracket, impeller, smooth-closed: test shapes of §4.1 X11, X15, X16.
+/// - nested-spheres, slab, wedge, variable-layers, bracket, impeller, smooth-closed: test shapes of §4.1 X11, X15, X16; torus: a ring.
 /// - veins, onlap, sandbox, fault-network, dfn: classes of Table 4.1; see reference_plans.h and fracture_network.h.
 /// - horizon-fault-pair: one wavy horizon H1 and one wavy steep fault F1 through it, 1 km wide, open and crossing each
 ///   other (with or without `raw_ratio`): 2 (1000 m / resolution)² triangles each, for measuring cuts.

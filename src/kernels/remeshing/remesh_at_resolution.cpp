@@ -1,6 +1,7 @@
 #include "kernels/remeshing/remesh_at_resolution.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 
 #include "base/id.h"
@@ -55,11 +56,11 @@ std::vector<std::uint32_t> sites_of_changes(const std::vector<ElementChange>& ch
 }
 
 Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& diagram, std::size_t site_count,
-                        const RemeshAtResolutionOptions& options) {
+                        const RemeshAtResolutionOptions& options, const MergeOptions& merge) {
   const Result<CellComponents> components = find_cell_components(model, diagram, site_count);
   if (!components) return components.failure();
   Attempt made;
-  const ComponentPoints points = place_component_points(model, diagram, *components, options.merge);
+  const ComponentPoints points = place_component_points(model, diagram, *components, merge);
   DualMesh mesh = build_dual_polygons(model, diagram, *components, points);
   clean_up_dual(model, mesh);
   made.merged_points = points.merges.size();
@@ -120,24 +121,40 @@ std::vector<std::uint32_t> far_sites(const NearestTriangle& to_model, const Rest
   return sorted_unique(std::move(sites));
 }
 
-/// One more site in each bad cell, at the corner of its pieces farthest from the site.
-std::vector<Vec3> with_more_sites(const RestrictedDiagram& diagram, const std::vector<std::uint32_t>& bad_sites,
-                                  std::vector<Vec3> sites) {
-  std::vector<double> farthest(bad_sites.size(), 0);
-  std::vector<Vec3> place(bad_sites.size());
+/// Per site: whether no triangle of the model lies both in its cell and in one of these.
+std::vector<char> away_from(const RestrictedDiagram& diagram, const std::vector<std::uint32_t>& cells,
+                            std::size_t site_count, std::size_t triangle_count) {
+  std::vector<char> is_away(site_count, 1), is_touched(triangle_count, 0);
+  for (const std::uint32_t site : cells) is_away[site] = 0;
+  for (std::size_t i = 0; i < diagram.piece_count(); ++i)
+    if (std::binary_search(cells.begin(), cells.end(), diagram.piece_site[i]))
+      is_touched[diagram.piece_triangle[i]] = 1;
+  for (std::size_t i = 0; i < diagram.piece_count(); ++i)
+    if (is_touched[diagram.piece_triangle[i]]) is_away[diagram.piece_site[i]] = 0;
+  return is_away;
+}
+
+/// One more site in each of these cells, at the corner of its pieces farthest from the site; `unmerged` (per site) is
+/// carried on to it.
+void add_sites(const RestrictedDiagram& diagram, const std::vector<std::uint32_t>& cells, std::vector<Vec3>& sites,
+               std::vector<char>& unmerged) {
+  std::vector<double> farthest(cells.size(), 0);
+  std::vector<Vec3> place(cells.size());
   for (std::size_t i = 0; i < diagram.piece_count(); ++i) {
-    const auto found = std::lower_bound(bad_sites.begin(), bad_sites.end(), diagram.piece_site[i]);
-    if (found == bad_sites.end() || *found != diagram.piece_site[i]) continue;
-    const auto k = static_cast<std::size_t>(found - bad_sites.begin());
+    const auto found = std::lower_bound(cells.begin(), cells.end(), diagram.piece_site[i]);
+    if (found == cells.end() || *found != diagram.piece_site[i]) continue;
+    const auto k = static_cast<std::size_t>(found - cells.begin());
     for (const Vec3& corner : diagram.piece_points(i))
       if (const double d = length(corner - sites[*found]); d > farthest[k]) {
         farthest[k] = d;
         place[k] = corner;
       }
   }
-  for (std::size_t k = 0; k < bad_sites.size(); ++k)
-    if (farthest[k] > 0) sites.push_back(place[k]);
-  return sites;
+  for (std::size_t k = 0; k < cells.size(); ++k)
+    if (farthest[k] > 0) {
+      sites.push_back(place[k]);
+      unmerged.push_back(unmerged[cells[k]]);
+    }
 }
 
 }  // namespace
@@ -149,43 +166,61 @@ Result<RemeshedAtResolution> remesh_at_resolution(const StructuralModel& model, 
   const CvtDomain domain{model.points, model.triangles, {}, lines};
   const NearestTriangle to_model({model.points, model.triangles});
   const std::size_t asked = sites.size();
-  Attempt best;
-  for (std::int64_t round = 0;; ++round) {
+  std::optional<Attempt> best;  // the valid one with the fewest cells too far away
+  std::size_t best_sites = 0;
+  MergeOptions merge = options.merge;
+  merge.unmerged_sites.assign(sites.size(), 0);
+  for (std::int64_t round = 0, flawed = 0, idle = 0;; ++round) {
     SiteNeighbours neighbours;
     neighbours.move_to(sites);
     const RestrictedDiagram diagram = restrict_to_triangles(model.points, model.triangles, neighbours);
-    Result<Attempt> made = attempt(model, diagram, sites.size(), options);
+    Result<Attempt> made = attempt(model, diagram, sites.size(), options, merge);
     if (!made) return made.failure();
-    best = std::move(*made);
-    std::vector<std::uint32_t> poor = best.bad_sites;
-    if (best.flaw.empty() && options.wanted_distance_m > 0)
-      poor = best.far_sites = far_sites(to_model, diagram, best.dual, options.wanted_distance_m);
-    if (best.flaw.empty() && (poor.empty() || round == options.rounds)) break;
     if (options.is_cancelled && options.is_cancelled())
       return Failure{FailureCode::cancelled, "cancelled", "run again to go on"};
-    const std::vector<Vec3> more = with_more_sites(diagram, poor, sites);
-    if (round == options.rounds || more.size() == sites.size())
+    const std::string flaw = made->flaw;
+    std::vector<std::uint32_t> poor = made->bad_sites;
+    if (flaw.empty()) {
+      if (options.wanted_distance_m > 0)
+        poor = made->far_sites = far_sites(to_model, diagram, made->dual, options.wanted_distance_m);
+      // Adding sites pays as long as a tenth of the far cells goes.
+      idle = best && 10 * poor.size() > 9 * best->far_sites.size() ? idle + 1 : 0;
+      if (!best || poor.size() < best->far_sites.size()) {
+        best = std::move(*made);
+        best_sites = sites.size();
+      }
+    } else if (++flawed > 1) {  // what a further site did not mend is not merged any more
+      for (const std::uint32_t site : poor) merge.unmerged_sites[site] = 1;
+    }
+    const std::size_t before = sites.size();
+    if (round < options.rounds && idle < 3) add_sites(diagram, poor, sites, merge.unmerged_sites);
+    if (sites.size() == before && best) break;
+    if (sites.size() == before)
       return Failure{FailureCode::geometry_failed,
-                     "after " + std::to_string(round) + " rounds of adding sites the dual is still not valid: " + best.flaw,
+                     "after " + std::to_string(round) + " rounds of adding sites the dual is still not valid: " + flaw,
                      "ask for more sites, another d_resolution_m, or preserve = \"all\""};
-    sites = optimise_sites(domain, more, {}, options.reoptimise).sites;
+    // What is good stays: only sites around the poor cells move.
+    std::vector<char> fixed = away_from(diagram, poor, before, model.triangles.size());
+    fixed.resize(sites.size(), 0);
+    sites = optimise_sites(domain, std::move(sites), fixed, options.reoptimise).sites;
   }
 
   RemeshedAtResolution result;
-  result.added_sites = sites.size() - asked;
-  result.merged_points = best.merged_points;
-  result.ball_failures = best.ball_failures.size();
-  for (const ElementChange& change : best.changes)
+  result.added_sites = best_sites - asked;
+  result.merged_points = best->merged_points;
+  result.ball_failures = best->ball_failures.size();
+  for (const ElementChange& change : best->changes)
     result.changes.push_back({std::string(to_string(change.element)) + "_" + std::string(to_string(change.kind)),
-                              describe(change, model, best.built.model), "smaller than a cell, or nearer than d_resolution_m"});
-  if (!best.far_sites.empty())
-    result.changes.push_back({"far_from_input", std::to_string(best.far_sites.size()) + " cells",
+                              describe(change, model, best->built.model),
+                              "smaller than a cell, or nearer than d_resolution_m"});
+  if (!best->far_sites.empty())
+    result.changes.push_back({"far_from_input", std::to_string(best->far_sites.size()) + " cells",
                               "the rounds of adding sites did not bring the mesh nearer"});
   RemeshGuardedOptions guarded;
   guarded.target_edge_length_m = options.edge_length_m;
   guarded.distance_ratio = options.distance_ratio;
   guarded.is_cancelled = options.is_cancelled;
-  Result<RemeshGuardedResult> evened = remesh_guarded(best.built.model, guarded);
+  Result<RemeshGuardedResult> evened = remesh_guarded(best->built.model, guarded);
   if (!evened) return evened.failure();
   result.evened = std::move(*evened);
   return result;

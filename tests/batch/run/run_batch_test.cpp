@@ -263,5 +263,52 @@ TEST_F(Batch, that_is_cancelled_writes_nothing) {
   EXPECT_FALSE(fs::exists(scratch_.path() / "out"));
 }
 
+TEST_F(Batch, quads_that_fail_leave_what_was_reached_beside_the_run_folder) {
+  const std::string sharp = "B 4\n0 0\n100 0\n100 100\n0 100\nF 2\n0 50\n90 60\nF 2\n0 50\n80 48\nF 2\n40 0\n45 52\n";
+  write_text(scratch_.path() / "sharp.txt", sharp);
+  const std::string text = "[[input]]\nfile = \"sharp.txt\"\n[output]\nproducts = [\"quads\"]\n[quad]\nedge_length_m = 8\n";
+  const std::vector<Job> job = jobs("q.toml", text);
+  const auto good = run_batch(job, {});
+  ASSERT_TRUE(good && !(*good)[0].failure) << describe(*(*good)[0].failure);
+  const std::string before = read_text(out("q") / "report.json");
+
+  const auto bad = run_batch(jobs("q.toml", text + "smoothing_rounds = 0\n"), {});
+  ASSERT_TRUE(bad);
+  ASSERT_TRUE((*bad)[0].failure) << "quads in a corner of 8° need smoothing";
+  const fs::path left = out("q.failed");
+  EXPECT_THAT((*bad)[0].failure->remedy, HasSubstr(left.string()));
+  for (const char* file : {"report.json", "job.toml", "log.txt", "plan_problem.vtp", "frame_field.vtp", "seamless_map.vtp",
+                           "quantize.vtp"})
+    EXPECT_GT(fs::file_size(left / file), 0u) << file;
+  EXPECT_EQ(nlohmann::json::parse(read_text(left / "report.json"))["status"], "failed");
+  EXPECT_EQ(read_text(out("q") / "report.json"), before) << "the run folder is as it was";
+  for (const fs::directory_entry& entry : fs::directory_iterator(scratch_.path() / "out"))
+    EXPECT_FALSE(entry.path().filename().string().starts_with(".")) << entry.path() << " was left half-written";
+
+  write_text(left / "notes.txt", "mine");
+  ASSERT_TRUE(run_batch(job, {}));
+  EXPECT_FALSE(fs::exists(left / "report.json")) << "a success clears it away";
+  EXPECT_EQ(read_text(left / "notes.txt"), "mine");
+}
+
+TEST_F(Batch, jobs_that_fail_before_their_quads_leave_nothing) {
+  write_text(scratch_.path() / "empty.pol", "0 0 0\n");
+  const auto bad = run_batch(
+      jobs("e.toml", "[[input]]\nfile = \"empty.pol\"\n[output]\nproducts = [\"quads\"]\n"), {});
+  ASSERT_TRUE(bad);
+  ASSERT_TRUE((*bad)[0].failure);
+  EXPECT_FALSE(fs::exists(out("e.failed")));
+}
+
+TEST_F(Batch, frames_are_written_with_their_singular_curves) {
+  const auto made = run_batch(jobs("f.toml", "[[input]]\nmodel = \"slab\"\nresolution_m = 125.0\n[output]\nproducts = "
+                                             "[\"frames\"]\n[frames]\niterations = 2\n"), {});
+  ASSERT_TRUE(made) << describe(made.failure());
+  ASSERT_FALSE((*made)[0].failure) << describe(*(*made)[0].failure);
+  for (const char* file : {"frames.vtu", "frames_singular.vtp"}) EXPECT_GT(fs::file_size(out("f") / file), 0u) << file;
+  EXPECT_GT(report("f")["frames"]["cells"], 100);
+  EXPECT_THAT(read_text(out("f") / "frames.vtu"), HasSubstr("Name=\"direction_2\" NumberOfComponents=\"3\""));
+}
+
 }  // namespace
 }  // namespace strataflow

@@ -62,6 +62,39 @@ TEST(WriteVtkXml, quads_come_with_a_line_for_every_edge_on_a_feature) {
     EXPECT_NE(bytes.find(name), std::string::npos) << name;
 }
 
+TEST(WriteVtkXml, lines_come_back_as_lines) {
+  const std::vector<Polyline> lines{{"a", Role::curve, {{0, 0, 0}, {1, 0, 0}, {2, 1, 0}}, false},
+                                    {"b", Role::curve, {{0, 0, 1}, {1, 0, 1}, {1, 1, 1}}, true}};
+  const InputData again = read_whole(read_vtk_xml, write_lines_vtp(lines, {10, 0, 0}), "a.vtp");
+  ASSERT_EQ(again.lines.size(), 2u);
+  EXPECT_EQ(again.lines[0].points, (std::vector<Vec3>{{10, 0, 0}, {11, 0, 0}, {12, 1, 0}}));
+  EXPECT_NE(write_lines_vtp({}, {}).find("NumberOfLines=\"0\""), std::string::npos);
+}
+
+TEST(WriteVtkXml, a_plan_carries_its_field_and_its_map) {
+  FeatureMesh mesh;
+  mesh.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  mesh.features = {{.name = "F1", .role = Role::fault}};
+  mesh.edges = {{0, 2, 0}};
+  mesh.corners = {0};
+  const InputData plain = read_whole(read_vtk_xml, write_feature_mesh_vtp(mesh, nullptr, nullptr), "a.vtp");
+  EXPECT_EQ(plain.surfaces.points.size(), 4u);
+  EXPECT_EQ(plain.surfaces.triangles.size(), 2u);
+  EXPECT_EQ(plain.lines.size(), 1u);
+  FrameField field;
+  field.angles = {{0, 1.5}, {0, 1.5}};
+  field.valence = {2, 2, 2, 2};
+  CornerMap map;
+  map.uv = {{0, 0}, {2, 0}, {2, 2}, {0, 0}, {2, 2}, {0, 2}};
+  map.valence = field.valence;
+  const std::string bytes = write_feature_mesh_vtp(mesh, &field, &map);
+  const InputData mapped = read_whole(read_vtk_xml, bytes, "a.vtp");
+  EXPECT_EQ(mapped.surfaces.triangles.size(), 2u);
+  for (const char* name : {"\"u\"", "\"v\"", "\"valence\"", "\"corner\"", "\"direction_0\"", "\"direction_1\"", "\"feature\""})
+    EXPECT_NE(bytes.find(name), std::string::npos) << name;
+}
+
 TEST(WriteVtkXml, the_same_content_gives_the_same_bytes) {
   EXPECT_EQ(write_vtu(two_region_mesh()), write_vtu(two_region_mesh()));
   const TriangleSoup soup = two_surface_soup();

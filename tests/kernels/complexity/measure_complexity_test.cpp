@@ -66,13 +66,13 @@ TEST_P(GivenModels, hold_in_voronoi_cells_as_many_features_as_in_the_thesis) {  
   const auto [mean, q50, q90] = GetParam().in_1000_cells;
   EXPECT_NEAR(found.cells[0].mean / mean, 1, 0.05);
   EXPECT_EQ(found.cells[0].q50, q50);
-  EXPECT_NEAR(found.cells[0].q90, q90, name == "A2" ? 2 : 1);  // a tenth of A2's cells has 7: it falls either way
+  EXPECT_NEAR(found.cells[0].q90, q90, 1);
   EXPECT_EQ(found.cells[0].q10, 1u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Thesis, GivenModels,
                          testing::Values(GivenModel{"A1", {4, 3, 0, 0}, {0.74, 0.00, 0}, {0.03, 0.00}, {2.500, 1, 5}},
-                                         GivenModel{"A2", {12, 23, 12, 0}, {0.76, 0.93, 0.01}, {3.21, 0.01}, {3.137, 3, 5}},
+                                         GivenModel{"A2", {12, 23, 12, 0}, {0.76, 0.93, 0.01}, {3.21, 0.01}, {3.137, 3, 7}},
                                          GivenModel{"A4", {8, 23, 22, 6}, {0.84, 1.41, 0.67}, {7.41, 0.10}, {2.960, 3, 7}}));
 
 class GeneratedModels : public testing::TestWithParam<const char*> {};

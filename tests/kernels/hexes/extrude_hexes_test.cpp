@@ -169,8 +169,7 @@ TEST(ExtrudeHexes, follows_a_listric_fault) {
   for (std::uint32_t e = 0; e < space.model.entities.size(); ++e) {
     const bool is_wall = space.model.entities[e].role != Role::horizon && space.model.entities[e].name != "Top" &&
                          space.model.entities[e].name != "Bottom";
-    // Walls within weak verticality: here the plan's outline bends by metres between its points.
-    EXPECT_LE(support::furthest_from_entity_m(hexes.grid.mesh, space.model, e), is_wall ? 5 : 1e-6)
+    EXPECT_LE(support::furthest_from_entity_m(hexes.grid.mesh, space.model, e), is_wall ? 0.1 : 1e-6)
         << space.model.entities[e].name;
   }
   EXPECT_NEAR(support::volume_m3(hexes) / (2000.0 * 1000 * 400), 1, 5e-3);
@@ -193,6 +192,59 @@ TEST(ExtrudeHexes, gives_every_region_its_volume) {
   for (std::size_t r = 0; r < of_model.size(); ++r) EXPECT_NEAR(of_hexes[r] / of_model[r], 1, 5e-3) << r;
 }
 
+/// Heights of layer `layer` of unit H2 (between H1 and H2) at the corners of all cells, from thinnest to thickest.
+std::array<double, 2> thickness_m(const ExtrudedHexes& hexes, std::uint32_t layer) {
+  std::array<double, 2> range{1e9, 0};
+  for (std::size_t c = 0; c < hexes.grid.mesh.cell_count(); ++c) {
+    if (hexes.grid.cell_layer[c] != layer) continue;
+    const auto p = support::corners_of(hexes.grid.mesh, c);
+    for (std::size_t k = 0; k < 4; ++k) {
+      range[0] = std::min(range[0], p[4 + k].z - p[k].z);
+      range[1] = std::max(range[1], p[4 + k].z - p[k].z);
+    }
+  }
+  return range;
+}
+
+TEST(ExtrudeHexes, lays_layers_parallel_to_the_roof_or_the_floor_of_their_unit) {
+  const auto columns = vertical_faults(1, false);
+  const VolumeMesh mesh = support::filled(*columns, 80);
+  const QuadMesh plan = support::plan_of(*columns, 80);
+  for (const LayerLayout layout : {LayerLayout::parallel_to_top, LayerLayout::parallel_to_base}) {
+    LayerOptions layers{4, {{"H1", 4}, {"H2", 4}, {"H3", 4}, {"Top", 4}}, 12.0, LayerLayout::proportional, {{"H2", layout}}};
+    const LayeredSpace space = support::upright(mesh, layers);
+    const ExtrudedHexes hexes = extruded(space, plan);
+    EXPECT_EQ(hexes.report.squeezed, 0u);
+    support::expect_no_inverted_cell(hexes);
+    support::expect_conforming(hexes.grid.mesh);
+    expect_surfaces_met(space, hexes);
+    const bool is_from_top = layout == LayerLayout::parallel_to_top;
+    for (const std::uint32_t layer : {4u, 5u, 6u, 7u}) {
+      const auto range = thickness_m(hexes, layer);
+      if (layer == (is_from_top ? 4u : 7u)) {
+        EXPECT_GT(range[1] - range[0], 5) << layer;  // takes what is left
+        EXPECT_GT(range[0], 12) << layer;
+      } else {
+        EXPECT_NEAR(range[0], 12, 1e-3) << layer;
+        EXPECT_NEAR(range[1], 12, 1e-3) << layer;
+      }
+    }
+    const auto proportional = thickness_m(hexes, 1);  // of the unit below
+    EXPECT_GT(proportional[1] - proportional[0], 2);
+  }
+}
+
+TEST(ExtrudeHexes, squeezes_parallel_layers_where_their_unit_is_too_thin) {
+  const auto columns = vertical_faults(1, false);
+  LayerOptions layers{4, {{"H2", 4}}, std::nullopt, LayerLayout::proportional, {{"H2", LayerLayout::parallel_to_top}}};
+  const LayeredSpace space = support::upright(support::filled(*columns, 80), layers);  // thickness: the mean of a layer
+  const ExtrudedHexes hexes = extruded(space, support::plan_of(*columns, 80));
+  EXPECT_GT(hexes.report.squeezed, 0u);
+  EXPECT_LT(hexes.report.squeezed, space.layers.level_w.size() * hexes.grid.plan.points.size());
+  support::expect_no_inverted_cell(hexes);
+  EXPECT_GT(thickness_m(hexes, 4)[0], 10);  // positive everywhere
+}
+
 TEST(ExtrudeHexes, sabotaged_by_the_barycentres_tetrahedron_leaves_the_horizons) {
   const auto columns = vertical_faults(1, false);
   const LayeredSpace space = support::upright(support::filled(*columns, 40), {2, {}, {}});
@@ -205,6 +257,52 @@ TEST(ExtrudeHexes, sabotaged_by_a_ball_of_no_size_does_not_find_the_side) {
   const auto columns = vertical_faults(1, true);
   const LayeredSpace space = support::upright(support::filled(*columns, 80), {2, {}, {}});
   EXPECT_GT(extruded(space, support::plan_of(*columns, 60), {0, false}).report.unreached, 0u);
+}
+
+TEST(ExtrudeHexes, makes_a_volumetric_fault_one_cell_thick_that_joins_both_sides) {
+  const auto columns = vertical_faults(1, false);
+  const LayeredSpace space = support::upright(support::filled(*columns, 80), {2, {}, {}});
+  QuadMesh plan = support::plan_of(*columns, 60);
+  // The fault's line moves 8 m to the west, the next one to where it lies 8 m to the east of the fault.
+  const double fault_x = 1600 * 5.0 / 12, next_x = fault_x + 1600 / 24.0;
+  std::vector<char> is_west(plan.points.size(), 0), is_east(plan.points.size(), 0);
+  for (std::size_t p = 0; p < plan.points.size(); ++p) {
+    is_west[p] = std::abs(plan.points[p].x - fault_x) < 1e-6;
+    is_east[p] = std::abs(plan.points[p].x - next_x) < 1e-6;
+    if (is_west[p]) plan.points[p].x = fault_x - 8;
+    if (is_east[p]) plan.points[p].x = fault_x + 8;
+  }
+  const auto right = static_cast<std::uint32_t>(plan.features.size());
+  plan.features.push_back({"F1 right", Role::fault, 0, -1});
+  const auto left = static_cast<std::uint32_t>(
+      std::find_if(plan.features.begin(), plan.features.end(), [](const Feature& f) { return f.name == "F1"; }) -
+      plan.features.begin());
+  plan.features[left] = {"F1 left", Role::fault, 1, static_cast<std::int32_t>(right)};
+  for (const auto& quad : plan.quads)
+    for (std::size_t k = 0; k < 4; ++k) {
+      const std::uint32_t a = quad[k], b = quad[(k + 1) % 4];
+      if (is_east[a] && is_east[b] && a < b) plan.edges.push_back({a, b, right});
+    }
+  ASSERT_GT(plan.edges.back().feature, left);
+  const ExtrudedHexes hexes = extruded(space, plan);
+  const VolumeMesh& mesh = hexes.grid.mesh;
+  EXPECT_EQ(facet_count(mesh, "F1"), 0u);  // cells instead of faces
+  support::expect_no_inverted_cell(hexes);
+  support::expect_conforming(mesh);
+  ASSERT_EQ(mesh.cell_entity.size(), mesh.cell_count());
+  std::size_t in_fault = 0;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    if (mesh.cell_entity[c] < 0) continue;
+    ++in_fault;
+    EXPECT_EQ(mesh.entities[static_cast<std::size_t>(mesh.cell_entity[c])].name, "F1");
+    for (const Vec3& p : support::corners_of(mesh, c)) EXPECT_NEAR(std::abs(p.x - fault_x), 8, 1e-6);  // R27
+  }
+  EXPECT_EQ(in_fault, 24u * 8);
+  for (const char* name : {"H1", "H2", "H3"}) {
+    const auto entity = static_cast<std::uint32_t>(name[1] - '1');
+    EXPECT_LE(support::furthest_from_entity_m(mesh, space.model, entity), 1e-6) << name;
+  }
+  EXPECT_NEAR(support::volume_m3(hexes) / (1600.0 * 1200 * 400), 1, 1e-9);
 }
 
 TEST(ExtrudeHexes, is_the_same_on_every_schedule) {

@@ -63,5 +63,16 @@ TEST(PlanLines, chain_edges_between_ends_and_branches) {
   EXPECT_TRUE(chains[3].is_closed);
 }
 
+TEST(PlanPosition, is_that_of_the_top_seen_from_above) {
+  LabelledTets tets;
+  tets.points = {{0, 0, 5}, {10, 0, 5}, {0, 10, 5}, {0, 0, 0}};
+  tets.facets = {{{0, 1, 2}, 0, SheetKind::top, 1, {}}, {{0, 1, 3}, 0, SheetKind::side, 1, {}}};
+  const std::vector<Vec3> plan = {{100, 0, 0}, {120, 0, 0}, {100, 20, 0}, {0, 0, 0}};
+  const auto position = plan_position(tets, plan, 2.5, 5);
+  ASSERT_TRUE(position);
+  EXPECT_EQ(*position, (Vec3{105, 10, 0}));
+  EXPECT_FALSE(plan_position(tets, plan, 9, 9));
+}
+
 }  // namespace
 }  // namespace strataflow

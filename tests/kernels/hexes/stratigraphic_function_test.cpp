@@ -126,5 +126,20 @@ TEST(StratigraphicFunction, is_the_same_on_every_schedule) {
   });
 }
 
+TEST(StratigraphicFunction, remembers_the_layout_and_the_thickness_of_every_unit) {
+  const support::LevelledTets model = support::levelled(support::filled(*vertical_faults(0, false), 200));
+  LayerOptions options{2, {}, 25.0, LayerLayout::parallel_to_base, {{"H2", LayerLayout::proportional}}};
+  const Result<StratigraphicTets> tets = find_stratigraphic_function(model.tets, model.levels, options);
+  ASSERT_TRUE(tets);
+  ASSERT_EQ(tets->units.size(), 4u);
+  EXPECT_EQ(tets->units[0].layout, LayerLayout::parallel_to_base);
+  EXPECT_EQ(tets->units[1].layout, LayerLayout::proportional);
+  EXPECT_EQ(tets->units[3].thickness_m, 25);
+  options.thickness_m = std::nullopt;
+  EXPECT_NEAR(find_stratigraphic_function(model.tets, model.levels, options)->units[0].thickness_m, 50, 3);
+  options.unit_layout = {{"H9", LayerLayout::proportional}};
+  EXPECT_FALSE(find_stratigraphic_function(model.tets, model.levels, options));
+}
+
 }  // namespace
 }  // namespace strataflow

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 
 #include "base/archive.h"
@@ -122,14 +121,9 @@ TEST(HausdorffDistance, stops_when_asked_to) {
   EXPECT_EQ(stopped.failure().code, FailureCode::cancelled);
 }
 
-TEST(HausdorffDistance, of_30000_against_20000_triangles_takes_well_under_a_second) {
-  const Mesh a = sphere(1, 88), b = sphere(1.01, 71);
-  const auto start = std::chrono::steady_clock::now();
-  const HausdorffDistance result = distance(a, b, 1e-3);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  RecordProperty("milliseconds", static_cast<int>(1000 * seconds));
+TEST(HausdorffDistance, of_30000_against_20000_triangles_keeps_its_bound) {
+  const HausdorffDistance result = distance(sphere(1, 88), sphere(1.01, 71), 1e-3);
   EXPECT_NEAR(result.distance_m(), 0.01, 1e-3);
-  EXPECT_LT(seconds, 5.0);  // loose: other work may share the machine
 }
 
 TEST(HausdorffByEntity, compares_features_of_the_same_name_and_names_those_that_are_gone) {

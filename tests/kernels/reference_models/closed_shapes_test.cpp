@@ -51,6 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ClosedShape,
                                          Shape{"slab", 1, 6, 12, 8, 1000. * 800 * 20, 1e-12, {125, 40, 10}},
                                          Shape{"wedge", 1, 5, 9, 6, 1000. * 800 * 30, 1e-12, {125, 40, 10}},
                                          Shape{"smooth-closed", 1, 1, 0, 0, 1.73e6, 0.05, {25, 12, 7}},
+                                         Shape{"torus", 1, 1, 0, 0, 2 * pi * 70 * pi * 30 * 30, 0.12, {25, 9, 3}},
                                          Shape{
                                              "bracket",
                                              1,

@@ -261,6 +261,7 @@ TEST(GenerateReferenceModel, refuses_resolutions_it_cannot_mesh) {
                                                    {"onlap", 110},
                                                    {"sandbox", 3500},
                                                    {"smooth-closed", 200},
+                                                   {"torus", 200},
                                                    {"fault-network", 12000},
                                                    {"dfn", 13000},
                                                    {"dipping-faults", 2000},

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <string>
+#include <tuple>
 
 #include "base/id.h"
 #include "kernels/quads/plan/plane_geometry.h"
@@ -50,7 +52,49 @@ Failure not_manifold(const QuadMesh& mesh, const std::string& what, std::uint32_
                  "try a smaller edge length"};
 }
 
+template <std::size_t corners>
+std::vector<std::uint32_t> patches_of(const std::vector<std::array<std::uint32_t, corners>>& faces,
+                                      const std::vector<FeatureEdge>& features) {
+  struct Side {
+    std::uint32_t a, b, face;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t f = 0; f < faces.size(); ++f)
+    for (std::size_t k = 0; k < corners; ++k) {
+      const auto [a, b] = std::minmax(faces[f][k], faces[f][(k + 1) % corners]);
+      sides.push_back({a, b, f});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& x, const Side& y) { return std::tie(x.a, x.b, x.face) < std::tie(y.a, y.b, y.face); });
+  std::vector<std::uint32_t> patch(faces.size());
+  std::iota(patch.begin(), patch.end(), 0u);
+  const auto least = [&](std::uint32_t f) {
+    while (patch[f] != f) f = patch[f] = patch[patch[f]];
+    return f;
+  };
+  const auto before = [](const FeatureEdge& e, const Side& s) { return std::tie(e.a, e.b) < std::tie(s.a, s.b); };
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i - 1].a != sides[i].a || sides[i - 1].b != sides[i].b) continue;
+    const auto feature = std::lower_bound(features.begin(), features.end(), sides[i], before);
+    if (feature != features.end() && feature->a == sides[i].a && feature->b == sides[i].b) continue;
+    const std::uint32_t x = least(sides[i - 1].face), y = least(sides[i].face);
+    patch[std::max(x, y)] = std::min(x, y);
+  }
+  for (std::uint32_t f = 0; f < patch.size(); ++f) patch[f] = least(f);
+  return patch;
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> smooth_patches(const std::vector<Triangle>& triangles,
+                                          const std::vector<FeatureEdge>& features) {
+  return patches_of(triangles, features);
+}
+
+std::vector<std::uint32_t> smooth_patches(const std::vector<std::array<std::uint32_t, 4>>& quads,
+                                          const std::vector<FeatureEdge>& features) {
+  return patches_of(quads, features);
+}
 
 std::int64_t euler_characteristic(std::size_t point_count, const std::vector<Triangle>& triangles) {
   return characteristic<3>(point_count, triangles);

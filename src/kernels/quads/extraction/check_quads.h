@@ -18,6 +18,12 @@ std::vector<std::uint32_t> quad_valence(const QuadMesh& quads);
 /// Per point: whether it lies on the boundary.
 std::vector<char> boundary_points(const QuadMesh& quads);
 
+/// Per face of three or four corners: the least face that it is joined to across edges that are no features (sorted as
+/// FeatureMesh::edges are). Quads and triangles of one smooth piece of surface share their normals' side.
+std::vector<std::uint32_t> smooth_patches(const std::vector<Triangle>& triangles, const std::vector<FeatureEdge>& features);
+std::vector<std::uint32_t> smooth_patches(const std::vector<std::array<std::uint32_t, 4>>& quads,
+                                          const std::vector<FeatureEdge>& features);
+
 /// Whether the quads are a manifold: four different corners each, coherently oriented, at most two at an edge, one fan
 /// around each point, no unused point; and whether labelled edges are edges of quads. Fails with geometry_failed.
 Result<void> check_quads(const QuadMesh& quads);

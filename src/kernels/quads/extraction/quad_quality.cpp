@@ -8,6 +8,42 @@
 
 namespace strataflow {
 
+namespace {
+
+/// Per quad the sum of the normals of itself and those of its patch that share a vertex, weighted by area.
+std::vector<Vec3> mean_normals(const QuadMesh& mesh) {
+  const std::vector<std::uint32_t> patch = smooth_patches(mesh.quads, mesh.edges);
+  struct Corner {
+    std::uint32_t point, patch;
+    Vec3 normal;
+  };
+  std::vector<Corner> corners;  // one per vertex and patch in the end
+  for (std::uint32_t i = 0; i < mesh.quads.size(); ++i) {
+    const auto& q = mesh.quads[i];
+    const Vec3 n = cross(mesh.points[q[2]] - mesh.points[q[0]], mesh.points[q[3]] - mesh.points[q[1]]);
+    for (const std::uint32_t p : q) corners.push_back({p, patch[i], n});
+  }
+  const auto before = [](const Corner& a, const Corner& b) {
+    return a.point != b.point ? a.point < b.point : a.patch < b.patch;
+  };
+  std::stable_sort(corners.begin(), corners.end(), before);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    if (kept > 0 && !before(corners[kept - 1], corners[i]))
+      corners[kept - 1].normal = corners[kept - 1].normal + corners[i].normal;
+    else
+      corners[kept++] = corners[i];
+  }
+  corners.resize(kept);
+  std::vector<Vec3> normals(mesh.quads.size());
+  for (std::uint32_t i = 0; i < mesh.quads.size(); ++i)
+    for (const std::uint32_t p : mesh.quads[i])
+      normals[i] = normals[i] + std::lower_bound(corners.begin(), corners.end(), Corner{p, patch[i], {}}, before)->normal;
+  return normals;
+}
+
+}  // namespace
+
 QuadShape quad_shape(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, const Vec3& normal) {
   const Vec3 corner[4] = {a, b, c, d};
   Vec3 own = cross(c - a, d - b);
@@ -32,12 +68,7 @@ double smallest_scaled_jacobian(const Vec3& a, const Vec3& b, const Vec3& c, con
 QuadQuality measure_quads(const QuadMesh& mesh) {
   QuadQuality quality;
   const bool is_plane = std::all_of(mesh.points.begin(), mesh.points.end(), [](const Vec3& p) { return p.z == 0; });
-  std::vector<Vec3> normal_at(mesh.points.size(), is_plane ? Vec3{0, 0, 1} : Vec3{});
-  if (!is_plane)
-    for (const auto& q : mesh.quads) {
-      const Vec3 n = cross(mesh.points[q[2]] - mesh.points[q[0]], mesh.points[q[3]] - mesh.points[q[1]]);
-      for (const std::uint32_t p : q) normal_at[p] = normal_at[p] + n;
-    }
+  const std::vector<Vec3> normals = is_plane ? std::vector<Vec3>(mesh.quads.size(), {0, 0, 1}) : mean_normals(mesh);
   double longest = 0;
   for (const auto& q : mesh.quads)
     for (int k = 0; k < 4; ++k) longest = std::max(longest, length(mesh.points[q[(k + 1) % 4]] - mesh.points[q[k]]));
@@ -46,9 +77,8 @@ QuadQuality measure_quads(const QuadMesh& mesh) {
   const auto boundary = boundary_points(mesh);
   for (std::uint32_t i = 0; i < mesh.quads.size(); ++i) {
     const auto& q = mesh.quads[i];
-    const Vec3 normal = normal_at[q[0]] + normal_at[q[1]] + normal_at[q[2]] + normal_at[q[3]];
-    const double jacobian =
-        smallest_scaled_jacobian(mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]], mesh.points[q[3]], normal);
+    const double jacobian = smallest_scaled_jacobian(mesh.points[q[0]], mesh.points[q[1]], mesh.points[q[2]],
+                                                     mesh.points[q[3]], normals[i]);
     quality.scaled_jacobian.add(jacobian);
     if (!(jacobian > 0)) ++quality.inverted;
     if (jacobian < worst) {

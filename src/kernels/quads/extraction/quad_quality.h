@@ -35,7 +35,7 @@ struct QuadQuality {
 };
 
 /// In the plane (all z 0) up is the normal of all quads; on a surface each quad is measured against the mean normal of
-/// the quads around it.
+/// itself and the quads around it, as far as no feature lies between.
 QuadQuality measure_quads(const QuadMesh& mesh);
 
 }  // namespace strataflow

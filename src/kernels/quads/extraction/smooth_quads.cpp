@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 
@@ -49,8 +50,8 @@ class QuadSmoother {
 
   Result<SmoothingReport> run() {
     is_plane_ = std::all_of(mesh_.points.begin(), mesh_.points.end(), [](const Vec3& p) { return p.z == 0; });
-    if (!is_plane_) surface_.emplace(TriangleMesh{mesh_.points, mesh_.triangles});
     link();
+    if (!is_plane_) find_sheets();
     if (const auto failure = find_curves()) return *failure;
     normals_.assign(quads_.quads.size(), {0, 0, 1});
     refresh_normals();
@@ -164,13 +165,53 @@ class QuadSmoother {
     return std::nullopt;
   }
 
+  /// On surfaces quads stay on their side of features: what is nearest may be the other face of a thin blade. Each smooth
+  /// patch of quads goes with the patch of triangles that most of its quads are nearest to.
+  void find_sheets() {
+    const NearestTriangle whole(TriangleMesh{mesh_.points, mesh_.triangles});
+    const std::vector<std::uint32_t> of_triangle = smooth_patches(mesh_.triangles, mesh_.edges);
+    const std::vector<std::uint32_t> of_quad = smooth_patches(quads_.quads, quads_.edges);
+    std::map<std::uint32_t, std::map<std::uint32_t, std::size_t>> votes;
+    for (std::size_t q = 0; q < quads_.quads.size(); ++q)
+      ++votes[of_quad[q]][of_triangle[whole.nearest(middle(q)).triangle]];
+    std::map<std::uint32_t, std::uint32_t> sheet_of;  // patch of triangles → sheet
+    const auto take = [&](std::uint32_t patch) {
+      const auto [found, is_new] = sheet_of.try_emplace(patch, static_cast<std::uint32_t>(sheets_.size()));
+      if (!is_new) return found->second;
+      std::vector<std::uint32_t> members;
+      std::vector<Triangle> triangles;
+      for (std::uint32_t t = 0; t < of_triangle.size(); ++t)
+        if (of_triangle[t] == patch) {
+          members.push_back(t);
+          triangles.push_back(mesh_.triangles[t]);
+        }
+      sheets_.push_back({NearestTriangle(TriangleMesh{mesh_.points, triangles}), std::move(members)});
+      return found->second;
+    };
+    sheet_.resize(quads_.quads.size());
+    std::map<std::uint32_t, std::uint32_t> chosen;
+    for (const auto& [patch, found] : votes) {
+      const auto most = std::max_element(found.begin(), found.end(),
+                                         [](const auto& a, const auto& b) { return a.second < b.second; });
+      chosen[patch] = take(most->first);
+    }
+    for (std::size_t q = 0; q < sheet_.size(); ++q) sheet_[q] = chosen[of_quad[q]];
+  }
+
+  Vec3 middle(std::size_t q) const {
+    Vec3 sum;
+    for (const std::uint32_t p : quads_.quads[q]) sum = sum + 0.25 * quads_.points[p];
+    return sum;
+  }
+
+  std::uint32_t nearest(const Vec3& p, std::size_t q) const {
+    const Sheet& sheet = sheets_[sheet_[q]];
+    return sheet.triangles[sheet.nearest.nearest(p).triangle];
+  }
+
   void refresh_normals() {
     if (is_plane_) return;
-    for (std::size_t q = 0; q < quads_.quads.size(); ++q) {
-      Vec3 middle;
-      for (const std::uint32_t p : quads_.quads[q]) middle = middle + 0.25 * quads_.points[p];
-      normals_[q] = normal_of(surface_->nearest(middle).triangle);
-    }
+    for (std::size_t q = 0; q < quads_.quads.size(); ++q) normals_[q] = normal_of(nearest(middle(q), q));
   }
 
   Vec3 normal_of(std::uint32_t t) const {
@@ -339,7 +380,7 @@ class QuadSmoother {
     Vec3 at = start;
     bool any = false;
     const auto attempt = [&](const Vec3& wanted) {
-      const Vec3 to = is_plane_ ? wanted : onto_surface(wanted);
+      const Vec3 to = is_plane_ ? wanted : onto_surface(wanted, quads_around(p)[0]);
       const Worth worth = worth_at(p, to);
       if (!is_better(worth, best)) return;
       best = worth;
@@ -359,8 +400,8 @@ class QuadSmoother {
     return any;
   }
 
-  Vec3 onto_surface(const Vec3& p) const {
-    const std::uint32_t t = surface_->nearest(p).triangle;
+  Vec3 onto_surface(const Vec3& p, std::uint32_t quad) const {
+    const std::uint32_t t = nearest(p, quad);
     const Vec3 &a = mesh_.points[mesh_.triangles[t][0]], &b = mesh_.points[mesh_.triangles[t][1]],
                &c = mesh_.points[mesh_.triangles[t][2]];
     const Vec3 n = normal_of(t), flat = p - dot(p - a, n) * n;
@@ -384,7 +425,12 @@ class QuadSmoother {
   const FeatureMesh& mesh_;
   const QuadSmoothing& options_;
   bool is_plane_ = true;
-  std::optional<NearestTriangle> surface_;
+  struct Sheet {
+    NearestTriangle nearest;
+    std::vector<std::uint32_t> triangles;
+  };
+  std::vector<Sheet> sheets_;         ///< on surfaces: patches of triangles that quads lie on
+  std::vector<std::uint32_t> sheet_;  ///< per quad
   std::vector<std::uint32_t> first_, around_;
   std::vector<Kind> kind_;
   std::vector<std::array<std::uint32_t, 2>> beside_;  ///< per point on a curve: its neighbours there

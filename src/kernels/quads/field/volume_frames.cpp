@@ -292,6 +292,51 @@ std::vector<Polyline> singular_curves(const VolumeMesh& mesh, const Cells& cells
   return curves;
 }
 
+/// Per cell the directions its frame must have: normals of its boundary faces. At a sharp edge of the boundary a cell
+/// that sees both faces is needed, or the frames cut the corner (S33): where none has both, all around the edge take both.
+std::vector<std::vector<Vec3>> boundary_directions(const VolumeMesh& mesh, const Cells& cells) {
+  std::vector<std::vector<Vec3>> normals(cells.vertices.size());
+  const auto add = [](std::vector<Vec3>& to, const Vec3& n) {
+    const bool parallel = std::any_of(to.begin(), to.end(), [&](const Vec3& m) { return std::abs(dot(m, n)) > 0.996; });
+    const bool flat = to.size() == 2 && std::abs(dot(cross(to[0], to[1]), n)) < 0.05;
+    if (to.size() < 3 && !parallel && !flat) to.push_back(n);
+  };
+  using Edge = std::pair<std::uint32_t, std::uint32_t>;
+  struct Side {
+    Edge edge;
+    std::uint32_t cell;
+    Vec3 normal;
+  };
+  std::vector<Side> sides;
+  for (std::uint32_t c = 0; c < cells.vertices.size(); ++c)
+    for (std::size_t k = 0; k < 4; ++k) {
+      if (cells.neighbour[c][k] != no_index) continue;
+      std::array<std::uint32_t, 3> at{};
+      for (std::size_t i = 0; i < 3; ++i) at[i] = cells.vertices[c][face_corners[k][i]];
+      const Vec3& a = mesh.points[at[0]];
+      const Vec3 n = unit(cross(mesh.points[at[1]] - a, mesh.points[at[2]] - a));
+      add(normals[c], n);
+      for (std::size_t i = 0; i < 3; ++i) sides.push_back({std::minmax(at[i], at[(i + 1) % 3]), c, n});
+    }
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& x, const Side& y) { return x.edge != y.edge ? x.edge < y.edge : x.cell < y.cell; });
+  constexpr double sharp = 0.866;  // normals 30° apart
+  std::vector<Side> corners;       // edges of two faces, of the first of them, in turn
+  for (std::size_t i = 1; i < sides.size(); ++i)
+    if (sides[i - 1].edge == sides[i].edge && sides[i - 1].cell != sides[i].cell &&
+        dot(sides[i - 1].normal, sides[i].normal) < sharp)
+      corners.insert(corners.end(), {sides[i - 1], sides[i]});
+  for (std::uint32_t c = 0; c < cells.vertices.size() && !corners.empty(); ++c)
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i + 1; j < 4; ++j) {
+        const Edge edge = std::minmax(cells.vertices[c][i], cells.vertices[c][j]);
+        auto at = std::lower_bound(corners.begin(), corners.end(), edge,
+                                   [](const Side& s, const Edge& e) { return s.edge < e; });
+        for (; at != corners.end() && at->edge == edge; ++at) add(normals[c], at->normal);
+      }
+  return normals;
+}
+
 }  // namespace
 
 Result<VolumeFrames> compute_volume_frames(const VolumeMesh& mesh, const VolumeFrameOptions& options,
@@ -308,18 +353,9 @@ Result<VolumeFrames> compute_volume_frames(const VolumeMesh& mesh, const VolumeF
   std::vector<std::uint8_t> known(count, 0);
   std::vector<std::uint32_t> queue;
   VolumeDiffusion diffusion{cells, options, std::vector<std::uint8_t>(3 * count, 0), {}};
+  const std::vector<std::vector<Vec3>> fixed_to = boundary_directions(mesh, cells);
   for (std::uint32_t c = 0; c < count; ++c) {
-    std::vector<Vec3> normals;
-    for (std::size_t k = 0; k < 4 && normals.size() < 3; ++k) {
-      if (cells.neighbour[c][k] != no_index) continue;
-      const Vec3& a = mesh.points[cells.vertices[c][face_corners[k][0]]];
-      const Vec3 n = unit(cross(mesh.points[cells.vertices[c][face_corners[k][1]]] - a,
-                                mesh.points[cells.vertices[c][face_corners[k][2]]] - a));
-      const bool parallel =
-          std::any_of(normals.begin(), normals.end(), [&](const Vec3& m) { return std::abs(dot(m, n)) > 0.996; });
-      const bool flat = normals.size() == 2 && std::abs(dot(cross(normals[0], normals[1]), n)) < 0.05;
-      if (!parallel && !flat) normals.push_back(n);
-    }
+    const std::vector<Vec3>& normals = fixed_to[c];
     if (normals.empty()) continue;
     frames[c] = cross_from(normals);
     for (std::size_t i = 0; i < normals.size(); ++i) {

@@ -33,7 +33,7 @@ struct VolumeFrames {
 /// A frame per tetrahedron, its directions not necessarily orthogonal, as smooth as the boundary lets it be
 /// (coudert2024 S32, S33): fourth powers of the directions in spherical harmonics, Algorithm 1 with analytic gradients.
 /// Directions are gradients: every boundary face fixes one to its normal, up to three per cell, those nearly parallel
-/// to an earlier one left out. Starts from crosses spread from the boundary, or from `start`. No hexahedral mesh is
+/// to an earlier one left out; where no cell has both faces of a sharp edge, all cells around it take both normals. Starts from crosses spread from the boundary, or from `start`. No hexahedral mesh is
 /// promised: the singular curves may belong to none. Fails with invalid_input for cells that are no tetrahedra,
 /// inverted, or not manifold.
 Result<VolumeFrames> compute_volume_frames(const VolumeMesh& mesh, const VolumeFrameOptions& options = {},

@@ -26,8 +26,8 @@ Result<std::vector<double>> fit_without_folds(const std::vector<LinearDerivative
     for (std::size_t t = 0; t < parts.size(); ++t) {
       const double d = parts[t].determinant();
       flipped += !(d > 0);
-      if (d > 0.1) continue;
-      weight[t] *= growth;
+      if (d > 0.3) continue;
+      weight[t] *= d > 0.1 ? 1 + (growth - 1) / 4 : d > 0 ? growth : 2 * growth;
       for (std::size_t i = 0; i < 4; ++i) derivatives[t].gradient[i] = weight[t] * plain[t].gradient[i];
       for (std::size_t i = 0; i < 16; ++i) derivatives[t].hessian[i] = weight[t] * plain[t].hessian[i];
     }

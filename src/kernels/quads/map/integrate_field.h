@@ -7,8 +7,8 @@
 namespace strataflow {
 
 /// X of least squares given by their derivatives at X = 0. While triangles come out flipped, or nearly, their weight is
-/// multiplied by `growth` and the system solved again, up to `stiffenings` times (local stiffening, Bommes 2009); the X
-/// with the fewest flipped triangles is returned. Fails with geometry_failed when the system is singular.
+/// multiplied by about `growth` and the system solved again, up to `stiffenings` times (local stiffening, Bommes 2009);
+/// the X with the fewest flipped triangles is returned. Fails with geometry_failed when the system is singular.
 Result<std::vector<double>> fit_without_folds(const std::vector<LinearDerivatives>& at_zero, MapEnergy& energy,
                                               std::int64_t stiffenings = 30, double growth = 3);
 

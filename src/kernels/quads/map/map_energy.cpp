@@ -79,8 +79,7 @@ Result<MapEnergy> MapEnergy::build(const FeatureLayout& layout, const MapReducti
   return energy;
 }
 
-std::vector<LinearPart> MapEnergy::linear_parts(const std::vector<double>& x) const {
-  const std::vector<double> v = reduction_->scalars(x);
+std::vector<LinearPart> MapEnergy::parts_of(const std::vector<double>& v) const {
   return parallel_map(
       shapes_.size(),
       [&](std::size_t t) {

@@ -44,7 +44,10 @@ class MapEnergy {
   std::uint32_t unknowns() const { return reduction_->unknowns; }
 
   /// Linear parts for X, in the common charts, per triangle.
-  std::vector<LinearPart> linear_parts(const std::vector<double>& x) const;
+  std::vector<LinearPart> linear_parts(const std::vector<double>& x) const { return parts_of(reduction_->scalars(x)); }
+
+  /// The same of scalars, whether or not they meet the reduction's constraints.
+  std::vector<LinearPart> parts_of(const std::vector<double>& scalars) const;
 
   /// Gradient over X from those of the triangles, weighted with their areas.
   std::vector<double> gradient(const std::vector<LinearDerivatives>& triangles) const;

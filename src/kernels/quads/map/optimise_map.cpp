@@ -6,6 +6,7 @@
 
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
+#include "kernels/quads/map/carry_map.h"
 #include "kernels/quads/map/integrate_field.h"
 
 namespace strataflow {
@@ -80,12 +81,10 @@ MapDefects map_defects(const FeatureMesh& mesh, const FeatureLayout& layout, con
   return defects;
 }
 
-/// One way to a valid map, from least squares whose folds are stiffened by `growth`.
-Result<OptimisedMap> attempt_map(const FeatureMesh& mesh, const FeatureLayout& layout, const MapReduction& reduction,
-                                 const FrameField& field, const CornerMap* start, MapEnergy& energy, double growth,
-                                 const FoldoverFreeOptions& options) {
-  Result<std::vector<double>> x =
-      start ? fit(reduction, *start, energy, growth) : integrate_field(reduction, field, energy, 30, growth);
+/// A valid map from X, or why it is none.
+Result<OptimisedMap> map_from(const FeatureMesh& mesh, const FeatureLayout& layout, const MapReduction& reduction,
+                              const FrameField& field, MapEnergy& energy, Result<std::vector<double>> x,
+                              const FoldoverFreeOptions& options) {
   if (!x) return x.failure();
   const Result<FoldoverFreeReport> done = make_foldover_free(energy, *x, options);
   if (!done) return done.failure();
@@ -145,12 +144,25 @@ Result<OptimisedMap> optimise_map(const FeatureMesh& mesh, const FrameField& fie
   if (!reduction) return reduction.failure();
   Result<MapEnergy> energy = MapEnergy::build(*layout, *reduction, mesh.edge_length_m);
   if (!energy) return energy.failure();
-  // A start that ends folded or wound leaves others.
+  const auto finished = [&](Result<std::vector<double>> x) {
+    return map_from(mesh, *layout, *reduction, field, *energy, std::move(x), options);
+  };
   std::vector<Failure> failures;
+  const auto is_over = [&](const Result<OptimisedMap>& map) {
+    if (!map) failures.push_back(map.failure());
+    return map || (options.is_cancelled && options.is_cancelled());
+  };
+  if (start)
+    if (const auto scalars = develop_map(*layout, *reduction, *start)) {
+      Result<OptimisedMap> map = finished(carry_map(*energy, *reduction, *scalars, 40, options));
+      if (is_over(map)) return map;
+      failures.clear();
+    }
+  // From least squares whose folds are stiffened by a factor. A start that ends folded or wound leaves others.
   for (const double growth : start ? std::array{4.0, 10.0, 1.5} : std::array{3.0, 10.0, 2.0}) {
-    Result<OptimisedMap> map = attempt_map(mesh, *layout, *reduction, field, start, *energy, growth, options);
-    if (map || (options.is_cancelled && options.is_cancelled())) return map;
-    failures.push_back(map.failure());
+    Result<OptimisedMap> map = finished(start ? fit(*reduction, *start, *energy, growth)
+                                              : integrate_field(*reduction, field, *energy, 30, growth));
+    if (is_over(map)) return map;
   }
   return failures.front();
 }

@@ -2,16 +2,20 @@
 
 namespace strataflow {
 
+std::vector<FrameFieldOptions> alternative_fields(const FrameFieldOptions& asked) {
+  std::vector<FrameFieldOptions> fields(5, asked);
+  fields[1].cancel_cost = 4 * asked.cancel_cost + 10;
+  fields[2].cancel_cost = 0;
+  fields[3].diffusions = asked.diffusions > 0 ? 0 : 4;
+  fields[4].kind = asked.kind == "polynomial" ? "fast" : "polynomial";
+  return fields;
+}
+
 Result<FieldAndMap> compute_seamless_map(const FeatureMesh& mesh, const FrameFieldOptions& field_options,
                                          const FoldoverFreeOptions& map_options) {
-  std::vector<FrameFieldOptions> attempts(5, field_options);
-  attempts[1].cancel_cost = 4 * field_options.cancel_cost + 10;
-  attempts[2].cancel_cost = 0;
-  attempts[3].diffusions = field_options.diffusions > 0 ? 0 : 4;
-  attempts[4].kind = field_options.kind == "polynomial" ? "fast" : "polynomial";
   FieldAndMap result;
   std::vector<Failure> failures;
-  for (const FrameFieldOptions& options : attempts) {
+  for (const FrameFieldOptions& options : alternative_fields(field_options)) {
     Result<FrameFieldResult> field = compute_frame_field(mesh, options);
     if (!field && field.failure().code == FailureCode::invalid_input) return field.failure();
     if (field) {

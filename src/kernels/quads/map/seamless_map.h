@@ -17,8 +17,12 @@ struct FieldAndMap {
   }
 };
 
+/// The fields that are tried one after the other: first the one asked for, then with fewer and with more singular
+/// points.
+std::vector<FrameFieldOptions> alternative_fields(const FrameFieldOptions& asked);
+
 /// A frame field and the valid seamless map that follows it (coudert2024 S5, S35 first line). Where a field's map stays
-/// folded or winds, fields with more and with fewer singular points are tried, in a fixed order. Fails with the reason
+/// folded or winds, the next of alternative_fields is tried. Fails with the reason
 /// of the first attempt.
 Result<FieldAndMap> compute_seamless_map(const FeatureMesh& mesh, const FrameFieldOptions& field_options = {},
                                          const FoldoverFreeOptions& map_options = {});

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <tuple>
@@ -305,6 +306,66 @@ void weld(LabelledSurface& surface) {
   surface.points = std::move(kept);
 }
 
+/// Where pieces of a surface touch at a point only (two faults that cut a horizon meet there), each gets its own.
+void separate_fans(LabelledSurface& surface) {
+  std::vector<std::uint32_t> fan(3 * surface.triangles.size());  // per corner, the least corner of its fan in the end
+  std::iota(fan.begin(), fan.end(), 0u);
+  const auto least = [&](std::uint32_t c) {
+    while (fan[c] != c) c = fan[c] = fan[fan[c]];
+    return c;
+  };
+  const auto corner_at = [&](std::uint32_t t, std::uint32_t p) {
+    const Triangle& c = surface.triangles[t];
+    return 3 * t + static_cast<std::uint32_t>(std::find(c.begin(), c.end(), p) - c.begin());
+  };
+  const EdgeTable table = build_edge_table(surface.points.size(), surface.triangles);
+  for (std::uint32_t e = 0; e < table.edge_count(); ++e) {
+    const auto around = table.around(e);
+    if (around.size() != 2) continue;
+    for (const std::uint32_t p : table.edges[e]) {
+      const std::uint32_t a = least(corner_at(around[0] / 3, p)), b = least(corner_at(around[1] / 3, p));
+      fan[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  const std::size_t before = surface.points.size();
+  std::vector<std::uint32_t> first_fan(before, no_index), of_copy;
+  std::map<std::uint32_t, std::uint32_t> copy;  // fan → point
+  const std::vector<Triangle> was = surface.triangles;
+  for (std::uint32_t c = 0; c < fan.size(); ++c) {
+    const std::uint32_t p = was[c / 3][c % 3], f = least(c);
+    if (first_fan[p] == no_index) first_fan[p] = f;
+    if (first_fan[p] == f) continue;
+    const auto [found, is_new] = copy.try_emplace(f, static_cast<std::uint32_t>(surface.points.size()));
+    if (is_new) {
+      surface.points.push_back(surface.points[p]);
+      of_copy.push_back(p);
+    }
+    surface.triangles[c / 3][c % 3] = found->second;
+  }
+  if (of_copy.empty()) return;
+  // Named edges and corners follow to every triangle that had them.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> names;
+  for (const NamedEdge& e : surface.edges) names[std::minmax(e.a, e.b)].push_back(e.name);
+  surface.edges.clear();
+  for (std::size_t t = 0; t < was.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (const auto found = names.find(std::minmax(was[t][k], was[t][(k + 1) % 3])); found != names.end())
+        for (const std::uint32_t name : found->second)
+          surface.edges.push_back({surface.triangles[t][k], surface.triangles[t][(k + 1) % 3], name});
+  for (NamedEdge& e : surface.edges)
+    if (e.a > e.b) std::swap(e.a, e.b);
+  const auto key = [](const NamedEdge& e) { return std::tie(e.name, e.a, e.b); };
+  std::sort(surface.edges.begin(), surface.edges.end(),
+            [&](const NamedEdge& x, const NamedEdge& y) { return key(x) < key(y); });
+  surface.edges.erase(std::unique(surface.edges.begin(), surface.edges.end(),
+                                  [&](const NamedEdge& x, const NamedEdge& y) { return key(x) == key(y); }),
+                      surface.edges.end());
+  const std::vector<std::uint32_t> corners = surface.corners;
+  for (std::size_t i = 0; i < of_copy.size(); ++i)
+    if (std::find(corners.begin(), corners.end(), of_copy[i]) != corners.end())
+      surface.corners.push_back(static_cast<std::uint32_t>(before + i));
+}
+
 }  // namespace
 
 Result<FeatureMesh> feature_mesh_of_surface(const TriangleSoup& soup, const SurfaceFeatureOptions& options) {
@@ -353,6 +414,7 @@ Result<FeatureMesh> feature_mesh_of_model(const StructuralModel& model, std::spa
   }
   for (const Corner& corner : model.corners) surface.corners.push_back(corner.vertex);
   weld(surface);
+  separate_fans(surface);
   return SurfaceFeatures(std::move(surface), options).run();
 }
 

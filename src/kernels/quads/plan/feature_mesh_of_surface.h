@@ -45,7 +45,8 @@ struct SurfaceFeatureOptions {
 /// meet, the surface is pinched or cannot be oriented, or a triangle has no area; names the place.
 Result<FeatureMesh> feature_mesh_of_surface(const TriangleSoup& soup, const SurfaceFeatureOptions& options);
 
-/// The same for some surfaces of a model; its lines on them are features and its corners are corners.
+/// The same for some surfaces of a model; its lines on them are features and its corners are corners. Where pieces of
+/// them touch at a point only, each gets a point of its own.
 Result<FeatureMesh> feature_mesh_of_model(const StructuralModel& model, std::span<const std::uint32_t> surfaces,
                                           const SurfaceFeatureOptions& options);
 

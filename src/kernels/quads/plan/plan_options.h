@@ -17,9 +17,9 @@ struct PlanOptions {
   double corner_deg = 45;               ///< a curve that turns by more has a corner there
   double box_margin_ratio = 3;          ///< the box around curves without outline is grown by this, in edge lengths
   bool free_boundary = false;           ///< quads need not follow the outline
-  std::optional<double> well_radius_m;  ///< of circles around wells; an edge length if absent
+  std::optional<double> well_radius_m{};  ///< of circles around wells; an edge length if absent
   std::int64_t well_segments = 12;      ///< of these circles
-  std::map<std::string, double> fault_thickness_m;  ///< by name: such a fault becomes a strip of one row (S20)
+  std::map<std::string, double> fault_thickness_m{};  ///< by name: such a fault becomes a strip of one row (S20)
   std::int64_t strip_quads = 1;                     ///< rows of quads across such a strip
 
   template <class Visitor>

@@ -142,9 +142,14 @@ class PlanRefinement {
     const double size = size_at(at, centre);
     if (!(nearest >= closest * size)) return false;
     const auto before = static_cast<std::uint32_t>(mesh_.points().size());
-    if (!mesh_.split_triangle(at, centre)) return false;
-    size_m_.resize(before + 1, size);
-    return true;
+    bool is_in = mesh_.split_triangle(at, centre);
+    // On an edge, as the centre of a circle of points is.
+    for (std::uint32_t h = 3 * at; !is_in && h < 3 * at + 3; ++h)
+      is_in = !mesh_.is_fixed(h) && mesh_.opposite(h) != no_index &&
+              turn(mesh_.points()[mesh_.origin(h)], mesh_.points()[mesh_.target(h)], centre) <= 0 &&
+              mesh_.split_edge(h, centre);
+    if (is_in) size_m_.resize(before + 1, size);
+    return is_in;
   }
 
   /// Halves a piece unless its halves would be much shorter than wanted.

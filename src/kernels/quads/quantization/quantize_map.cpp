@@ -57,6 +57,18 @@ void ask_for_strips(const FeatureMesh& features, const FlatMesh& mesh, VectorTar
   }
 }
 
+/// QuantizeOptions::crowded.
+void make_room(const FlatMesh& mesh, std::size_t points, const std::vector<std::uint32_t>& crowded,
+               VectorTargets& targets) {
+  std::vector<std::uint32_t> times(points, 0);
+  for (const std::uint32_t p : crowded)
+    if (p < points) ++times[p];
+  for (std::uint32_t h = 0; h < mesh.half_edge_count(); ++h) {
+    const double least = 1 + std::max(times[mesh.origin[h]], times[mesh.end(h)]), now = std::abs(targets.wanted[h]);
+    if (least > 1 && now > 0 && now < least) targets.wanted[h] *= least / now;
+  }
+}
+
 /// Visits the triangles of each piece as a tree: visit_root(t), then visit(h) for each half-edge crossed to a new one.
 template <class VisitRoot, class Visit>
 void walk_triangles(const FlatMesh& mesh, VisitRoot visit_root, Visit visit) {
@@ -131,6 +143,7 @@ Result<Quantization> quantize_map(const FeatureMesh& mesh, const CornerMap& map,
   q.decimated = decimate_map(mesh, q.flat, q.cut, {.keep_shape = options.keep_shape});
   const double scale = options.quads_per_unit * (options.coarse ? 0.01 : 1);
   VectorTargets targets = targets_of(q.decimated.mesh, scale);
+  make_room(q.decimated.mesh, mesh.points.size(), options.crowded, targets);
   ask_for_strips(mesh, q.decimated.mesh, targets);
   auto integers = optimise_vectors(q.decimated.mesh, targets);
   if (!integers) return integers.failure();

@@ -14,6 +14,9 @@ struct QuantizeOptions {
   bool coarse = false;        ///< as few quads as a valid map allows (S40): the scale is 1/100 of the above
   bool keep_shape = false;    ///< keep every bend of free boundaries and of features that the map does not follow;
                               ///< imprint_quantization needs it if there are any
+  /// Points where quads have no room to be convex, as often as that was found: around one named k times, vectors
+  /// between kept points are wanted k + 1 quads long at least. A wish, weighed against the others.
+  std::vector<std::uint32_t> crowded = {};
 };
 
 /// Integers for a seamless map.

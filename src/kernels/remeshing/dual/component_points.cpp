@@ -15,6 +15,9 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
+/// A line that leaves the straight way through a cell by this share of its length has its point there.
+constexpr double bend_share = 0.05;
+
 struct Node {
   PointKind kind;
   std::uint32_t element;    ///< corner of the model, line component, surface component
@@ -95,7 +98,7 @@ class PointPlacing {
   Cell place(std::uint32_t site) const {
     Cell cell;
     gather(site, cell);
-    if (cell.nodes.size() > 1) {
+    if (cell.nodes.size() > 1 && (site >= options_.unmerged_sites.size() || !options_.unmerged_sites[site])) {
       if (options_.merges_linked_corners) merge_linked_corners(site, cell);
       if (options_.merges_beyond_two_points) merge_beyond_two_points(site, cell);
       if (options_.resolution_m > 0) merge_near(site, cell);
@@ -266,7 +269,22 @@ class PointPlacing {
       if (x.squared != y.squared) return x.squared < y.squared;
       return x.a != y.a ? x.a < y.a : x.b < y.b;
     });
-    for (const Near& pair : near) merge(site, cell, {pair.a, pair.b}, MergeKind::resolution, std::sqrt(pair.squared));
+    for (const Near& pair : near)
+      if (!moves_too_far(cell, cell.group_of[pair.a], cell.group_of[pair.b]))
+        merge(site, cell, {pair.a, pair.b}, MergeKind::resolution, std::sqrt(pair.squared));
+  }
+
+  /// Pieces near each other at one end only, as of lines that meet at an angle, must not become one as far as the cell
+  /// goes: the common point would leave one of them by much more than the resolution.
+  bool moves_too_far(const Cell& cell, std::uint32_t a, std::uint32_t b) const {
+    if (!(options_.most_move_m > 0) || a == b) return false;
+    Group both = cell.groups[a];
+    both.members.insert(both.members.end(), cell.groups[b].members.begin(), cell.groups[b].members.end());
+    std::sort(both.members.begin(), both.members.end());
+    const Vec3 common = position_of(cell, both);
+    return std::any_of(both.members.begin(), both.members.end(), [&](std::uint32_t member) {
+      return length(nearest_of({&cell.nodes[member]}, common) - common) > options_.most_move_m;
+    });
   }
 
   /// Of the pieces two nodes stand for; anything above `limit` where that is clear from boxes.
@@ -334,7 +352,7 @@ class PointPlacing {
     return nearest;
   }
 
-  /// The corner; half way along the line; the centroid of the surface.
+  /// The corner; half way along the line, or where it bends most; the centroid of the surface.
   Vec3 own_position(const Node& node) const {
     if (node.kind == PointKind::corner) return model_.points[model_.corners[node.element].vertex];
     if (node.kind == PointKind::line) return middle_of(node.element);
@@ -357,11 +375,24 @@ class PointPlacing {
     std::size_t start = 0;
     for (std::size_t k = 1; k < parts.size(); ++k)
       if (parts[k] != parts[k - 1] + 1) start = k;
-    double total = 0;
-    for (const std::uint32_t part : parts) total += length(components_.parts[part].end - components_.parts[part].begin);
+    const auto part_at = [&](std::size_t k) -> const LinePart& {
+      return components_.parts[parts[(start + k) % parts.size()]];
+    };
+    double total = 0, farthest = 0;
+    Vec3 bend;
+    const Vec3 &from = part_at(0).begin, &to = part_at(parts.size() - 1).end;
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      const Vec3& p = part_at(k).end;
+      total += length(p - part_at(k).begin);
+      if (const double d = length(nearest_on_segment(p, from, to) - p); d > farthest && from != to) {
+        farthest = d;
+        bend = p;
+      }
+    }
+    if (options_.follows_bends && farthest > bend_share * total) return bend;  // else the mesh would cut it off
     double left = total / 2;
     for (std::size_t k = 0; k < parts.size(); ++k) {
-      const LinePart& part = components_.parts[parts[(start + k) % parts.size()]];
+      const LinePart& part = part_at(k);
       const double own = length(part.end - part.begin);
       if (left <= own || k + 1 == parts.size())
         return own > 0 ? part.begin + std::min(1.0, left / own) * (part.end - part.begin) : part.begin;

@@ -36,6 +36,9 @@ struct MergeOptions {
   bool merges_linked_corners = true;     ///< corners that lines link inside the cell
   bool merges_beyond_two_points = true;  ///< all points of a surface component that has more than two
   double resolution_m = 0;               ///< points whose pieces of the model are nearer than this; 0: none
+  double most_move_m = 0;                ///< > 0: of these only where the common point lies so near to all their pieces
+  bool follows_bends = false;  ///< a line has its point where it bends most inside the cell, else half way along it
+  std::vector<char> unmerged_sites = {};  ///< per site whose points stay apart; sites beyond its end may merge theirs
   bool merges_different_roles = false;   ///< of pieces nearer than resolution_m also those with no role in common
   /// Points on a boundary never merge with points off it, nor a point on two sides with one that lacks one of them,
   /// unless it moves onto it.

@@ -13,6 +13,9 @@ namespace strataflow {
 
 namespace {
 
+/// Cells of the grid, in edges to come: the triangles around a vertex then meet few of them.
+constexpr double cell_edges = 1.7;
+
 Triangle with(Triangle t, std::uint32_t from, std::uint32_t to) {
   for (std::uint32_t& v : t)
     if (v == from) v = to;
@@ -50,7 +53,7 @@ GuardedMesh::GuardedMesh(const InputSurfaces& inputs, const GuardOptions& option
   const std::size_t vertices = points_.size(), triangles = triangles_.size();
   Box3 box;
   for (const Vec3& p : points_) box.take(p);
-  grid_ = TriangleGrid(box, options.cell_m, std::max<std::size_t>(1u << 20, 4 * triangles));
+  grid_ = TriangleGrid(box, cell_edges * options.cell_m, std::max<std::size_t>(1u << 20, 4 * triangles));
   head_.assign(vertices, no_index);
   next_.assign(3 * triangles, no_index);
   first_sample_.assign(triangles, no_index);

@@ -182,16 +182,20 @@ std::uint64_t split_long_edges(GuardedMesh& mesh) {
 std::uint64_t collapse_short_edges(GuardedMesh& mesh) {
   std::uint64_t done = 0;
   const ShapeDemand demand{.floor = sine_20_deg, .longest = longest_share};
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (std::uint32_t sweep = 0, since = 0; sweep < most_sweeps; ++sweep) {
     std::vector<MeasuredEdge> edges = edges_where(mesh, [](double share) { return share < shortest_share; });
     sort_unique(edges, std::less<>());
     std::uint64_t now = 0;
+    const std::uint32_t start = mesh.step_count() + 1;
     for (const MeasuredEdge& edge : edges) {
       if (!mesh.is_alive_vertex(edge.a) || !mesh.is_alive_vertex(edge.b)) continue;
+      // What was refused is refused again as long as nothing around it changes.
+      if (mesh.star_changed_at(edge.a) < since && mesh.star_changed_at(edge.b) < since) continue;
       now += mesh.collapse_edge(edge.b, edge.a, demand) == Verdict::done ||
              mesh.collapse_edge(edge.a, edge.b, demand) == Verdict::done;
     }
     done += now;
+    since = start;
     if (now == 0) break;
   }
   return done;

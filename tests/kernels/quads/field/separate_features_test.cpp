@@ -32,6 +32,27 @@ TEST(SeparateFeatures, leaves_every_triangle_one_feature_edge_and_every_sector_a
   }
 }
 
+/// Twelve points of a circle around one: the field of a disc has four singular points of valence 3.
+TEST(SeparateFeatures, makes_room_for_the_singular_points_of_a_compartment) {
+  FeatureMesh wheel;
+  std::vector<std::uint32_t> rim;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 12;
+    wheel.points.push_back({std::cos(angle), std::sin(angle), 0});
+    wheel.triangles.push_back({i, (i + 1) % 12, 12});
+    rim.push_back(i);
+  }
+  wheel.points.push_back({0, 0, 0});
+  wheel.edge_length_m = 1;
+  rim.push_back(0);
+  support::add_feature(wheel, "rim", rim);
+  const auto separate = separate_features(wheel);
+  ASSERT_TRUE(separate);
+  EXPECT_GE(separate->points.size(), 12u + 7u);
+  EXPECT_EQ(separate->edges.size(), 12u);
+  EXPECT_EQ(separate_features(*separate)->triangles, separate->triangles) << "once is enough";
+}
+
 TEST(SeparateFeatures, changes_nothing_where_nothing_reaches_from_feature_to_feature) {
   const FeatureMesh once = *separate_features(support::square(5));
   EXPECT_EQ(separate_features(once)->triangles, once.triangles);

@@ -93,6 +93,55 @@ TEST(VolumeFrames, find_singular_curves_along_a_cylinder) {
     for (const Vec3& p : curve.points) EXPECT_LT(std::hypot(p.x, p.y), 0.999);
 }
 
+/// S33: a wedge of 40° cut into slices, so that no cell touches both of its long sides at the sharp edge.
+TEST(VolumeFrames, stand_on_both_sides_of_a_sharp_edge) {
+  const double opening = 40 * std::acos(-1.0) / 180;
+  const VolumeMesh wedge = tetrahedral_box(4, 2, [&](double x, double y, double z) {
+    const double r = 0.02 + x, turn = opening * y;
+    return Vec3{r * std::cos(turn), r * std::sin(turn), z};
+  });
+  VolumeMesh sharp = wedge;  // the inner cylinder becomes the edge: its points fall together per level
+  std::vector<std::uint32_t> first;
+  for (std::uint32_t p = 0; p < sharp.points.size(); ++p)
+    if (std::hypot(sharp.points[p].x, sharp.points[p].y) < 0.021) {
+      std::uint32_t same = p;
+      for (const std::uint32_t q : first)
+        if (sharp.points[q].z == sharp.points[p].z) same = q;
+      if (same == p) {
+        sharp.points[p] = {0, 0, sharp.points[p].z};
+        first.push_back(p);
+        continue;
+      }
+      for (std::uint32_t& v : sharp.cell_vertices)
+        if (v == p) v = same;
+    }
+  VolumeMesh made;
+  made.points = sharp.points;
+  for (std::size_t c = 0; c < sharp.cell_count(); ++c) {
+    const std::uint32_t* v = sharp.cell_vertices.data() + 4 * c;
+    const Vec3& o = sharp.points[v[0]];
+    if (dot(cross(sharp.points[v[1]] - o, sharp.points[v[2]] - o), sharp.points[v[3]] - o) > 1e-12)
+      made.add_cell(CellType::tetrahedron, v, 0);
+  }
+  const auto found = compute_volume_frames(made, {.lambda = 0.2});
+  ASSERT_TRUE(found) << describe(found.failure());
+  const Vec3 one{0, -1, 0}, other{-std::sin(opening), std::cos(opening), 0};
+  std::size_t at_edge = 0;
+  for (std::size_t c = 0; c < made.cell_count(); ++c) {
+    std::size_t on_edge = 0;
+    for (std::size_t k = 0; k < 4; ++k)
+      on_edge += std::hypot(made.points[made.cell_vertices[4 * c + k]].x, made.points[made.cell_vertices[4 * c + k]].y) == 0;
+    if (on_edge < 2) continue;
+    ++at_edge;
+    for (const Vec3& n : {one, other}) {
+      double nearest = 0;
+      for (const Vec3& u : found->frames[c]) nearest = std::max(nearest, std::abs(dot(u, n)));
+      EXPECT_NEAR(nearest, 1, 1e-12) << "cell " << c;
+    }
+  }
+  EXPECT_GE(at_edge, 8u);
+}
+
 TEST(VolumeFrames, fix_boundary_normals_and_stay_unit) {
   const auto twisted = compute_volume_frames(tetrahedral_box(3, 4, [](double x, double y, double z) {
     const double turn = 0.6 * z, u = x - 0.5, v = y - 0.5;

@@ -98,5 +98,26 @@ TEST(RefinePlan, a_strip_gets_triangles_of_the_wanted_size_without_small_angles)
   EXPECT_FALSE(refine_plan(mesh, plan, 0.5, 2000));
 }
 
+/// The centre lies on the diameters that the triangulation of such points has.
+TEST(RefinePlan, a_circle_of_points_gets_its_centre) {
+  PlanGraph graph;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    const double angle = 2 * 3.14159265358979 * i / 12;
+    graph.points.push_back({638 + 40 * std::cos(angle), 573 + 40 * std::sin(angle), 0});
+    graph.segments.push_back({std::min(i, (i + 1) % 12), std::max(i, (i + 1) % 12), {0}, 30, {}});
+  }
+  graph.is_required.assign(12, 0);
+  auto plan = *sample_plan(graph, 30);
+  std::vector<PlaneSegment> fixed;
+  for (const auto& piece : plan.pieces) fixed.push_back(piece.ends);
+  PlaneTriangulation mesh(plan.points, *constrained_delaunay(plan.points, fixed), fixed);
+  ASSERT_TRUE(refine_plan(mesh, plan, 30));
+  expect_consistent(mesh);
+  EXPECT_EQ(plan.size_m.size(), mesh.points().size());
+  double nearest = 40;
+  for (const Vec3& p : mesh.points()) nearest = std::min(nearest, length(p - Vec3{638, 573, 0}));
+  EXPECT_LT(nearest, 10);
+}
+
 }  // namespace
 }  // namespace strataflow

@@ -125,6 +125,27 @@ TEST(QuantizeMap, a_strip_between_two_features_gets_the_rows_that_it_asks_for) {
   }
 }
 
+TEST(QuantizeMap, more_quads_are_wanted_around_crowded_points) {
+  MapShape shape = support::rectangle_map(10, 8, 10, 8);
+  for (std::uint32_t i = 0; i <= 10; ++i) support::move_point(shape, 44 + i, i, 3.3);
+  support::add_feature(shape, {35, 36, 37, 38, 39, 40}, "below");  // y = 3
+  support::add_feature(shape, {46, 47, 48, 49, 50, 51}, "above");  // y = 3.3
+  support::add_feature(shape, {35, 46}, "west end");
+  support::finish_shape(shape);
+  const auto rows = [&](const std::vector<std::uint32_t>& crowded) {
+    const Quantization q = quantize(shape, {.crowded = crowded});
+    const FlatMesh& m = q.decimated.mesh;
+    for (std::uint32_t h = 0; h < m.half_edge_count(); ++h)
+      if (m.curve_features[m.curve[h]] == std::vector<std::uint32_t>{6})
+        return std::abs(q.integers.vectors[h].re) + std::abs(q.integers.vectors[h].im);
+    return std::int64_t{0};
+  };
+  EXPECT_EQ(rows({}), 1);
+  EXPECT_GE(rows({35, 40, 35, 40}), 2) << "named twice";
+  EXPECT_GE(rows({35, 40, 35, 40, 35, 40}), 3) << "and a third time";
+  EXPECT_EQ(rows({1000}), 1) << "a number that is no point";
+}
+
 // T30: a feature that climbs while it goes once around cannot be level.
 TEST(QuantizeMap, a_spiral_that_cannot_be_aligned_is_reported) {
   MapShape shape = support::cylinder_map(8, 6, 8, 6);

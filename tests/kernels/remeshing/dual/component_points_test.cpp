@@ -125,6 +125,52 @@ TEST(ComponentPoints, a_throw_below_the_resolution_is_cancelled_and_a_larger_one
   }
 }
 
+TEST(ComponentPoints, sheets_that_only_touch_at_one_end_of_a_cell_are_joined_no_farther_than_they_may_move) {
+  // A wedge that opens from 0.02 to 0.32 across one cell: half way along it is wider than what a point may move.
+  const StructuralModel wedge = Patches()
+                                    .add("H", Role::horizon, sample::rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 8, 8))
+                                    .add("H", Role::horizon,
+                                         sample::rectangle({0, 0, 0.02}, {1, 0, 0.3}, {0, 1, 0}, 8, 8))
+                                    .model();
+  const std::vector<Vec3> one{{0.5, 0.5, 0}, {90, 90, 90}};
+  MergeOptions options{.merges_linked_corners = false, .merges_beyond_two_points = false, .resolution_m = 0.05};
+  const auto inner_merges = [&] {
+    std::size_t merges = 0;
+    for (const PointMerge& merge : dual_of(wedge, one, options).points.merges) merges += merge.lines.empty() ? 0u : 1u;
+    return merges;
+  };
+  EXPECT_GT(inner_merges(), 0u);
+  options.most_move_m = 0.05;
+  EXPECT_EQ(inner_merges(), 0u);
+  options.most_move_m = 1;
+  EXPECT_GT(inner_merges(), 0u);
+}
+
+TEST(ComponentPoints, cells_that_are_to_stay_unmerged_do) {
+  MergeOptions options{.resolution_m = 0.05};
+  options.unmerged_sites = {0, 1, 1};
+  const Dual dual = dual_of(two_sheets(0.01), grid_sites(0.005), options);
+  EXPECT_EQ(dual.points.merges.size(), 14u);
+  for (const PointMerge& merge : dual.points.merges) EXPECT_TRUE(merge.site == 0 || merge.site > 2) << merge.site;
+}
+
+TEST(ComponentPoints, a_border_has_its_point_where_it_bends) {
+  // The border of a square runs round its corner inside the one cell that holds it; the others see straight pieces.
+  const StructuralModel square =
+      Patches().add("S", Role::horizon, sample::rectangle({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 10, 10)).model();
+  ASSERT_TRUE(square.corners.empty());
+  MergeOptions options = sample::no_merging();
+  for (const bool follows : {true, false}) {
+    options.follows_bends = follows;
+    const Dual dual = dual_of(square, {{0.1, 0.2, 0}, {0.8, 0.2, 0}, {0.1, 0.8, 0}, {0.8, 0.8, 0}}, options);
+    std::size_t at_bends = 0;
+    for (const DualPoint& p : dual.points.points)
+      for (const Vec3& bend : {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{1, 1, 0}})
+        at_bends += p.position == bend;
+    EXPECT_EQ(at_bends, follows ? 4u : 0u);
+  }
+}
+
 TEST(ComponentPoints, the_box_stays_where_it_is) {
   const StructuralModel model = sample::reference("A4", 160);
   const Dual dual = dual_of(model, sample::sites_in_box(model, 30, 4), {.resolution_m = 100});

@@ -1,0 +1,6 @@
+GOCAD VSet 1
+HEADER {
+name: W1
+}
+VRTX 1 520 480 0
+END

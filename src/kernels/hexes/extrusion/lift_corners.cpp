@@ -1,0 +1,256 @@
+#include "kernels/hexes/extrusion/lift_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+#include "graph/parallel/parallel_map.h"
+#include "kernels/hexes/cell_states.h"
+#include "kernels/hexes/extrusion/wall_faces.h"
+
+namespace strataflow {
+namespace {
+
+std::size_t place_in(const std::vector<std::uint32_t>& ball, std::uint32_t tet) {
+  return static_cast<std::size_t>(std::lower_bound(ball.begin(), ball.end(), tet) - ball.begin());
+}
+
+}  // namespace
+
+CornerLifter::CornerLifter(const LayeredSpace& space, const QuadMesh& plan, const PlanEdges& edges,
+                           const ExtrudeOptions& options)
+    : space_(space),
+      plan_(plan),
+      edges_(edges),
+      options_(options),
+      layers_(space.layers.layer_count()),
+      edge_m_(mean_plan_edge_m(plan)),
+      locator_(space, edge_m_),
+      wall_of_face_(walls_of_faces(space)) {
+  lift_centres();
+}
+
+/// Of all layers' middles, for regions, and of all levels beside faults.
+void CornerLifter::lift_centres() {
+  centre_places_ = parallel_map(
+      plan_.quads.size(),
+      [&](std::size_t q) {
+        bool is_beside_fault = false;
+        Vec3 centre;
+        for (const std::uint32_t p : plan_.quads[q]) {
+          centre = centre + 0.25 * plan_.points[p];
+          is_beside_fault = is_beside_fault || edges_.is_on_fault[p] || edges_.zones.is_on_strip[p];
+        }
+        std::vector<TetLocator::Place> column;
+        for (std::uint32_t k = 0; k < layers_; ++k)
+          column.push_back(locator_.locate(locator_.at(centre, k + 0.5), edge_m_));
+        for (std::uint32_t level = 0; is_beside_fault && level <= layers_; ++level)
+          column.push_back(locator_.locate(locator_.at(centre, level), edge_m_));
+        return column;
+      },
+      16);
+  for (std::uint32_t q = 0; q < centre_places_.size() && !outside_quad_; ++q)
+    for (const TetLocator::Place& place : centre_places_[q])
+      if (place.tet == no_index) outside_quad_ = q;
+}
+
+Lift CornerLifter::lift(std::uint32_t point, double w) const {
+  if (const std::uint32_t beside = edges_.corner_beside_strip(point); beside != no_index)
+    return lift_on_fault(beside, w);
+  const Vec3 at = locator_.at(plan_.points[point], w);
+  TetLocator::Place place = locator_.locate(at, edge_m_);
+  if (place.tet == no_index) place.tet = tet_of_cell(edges_.wedges[edges_.first_wedge[point]] / 4, 0);
+  Lift one{place.tet, place.outside_m, {}, false, false};
+  const bool is_outside = place.outside_m > 1e-9 * edge_m_;
+  one.position = position_in(
+      one,
+      is_outside ? locator_.in_ball(at, std::max(2 * place.outside_m, 0.2 * edge_m_)) : std::vector<std::uint32_t>{},
+      at);
+  if (edges_.is_on_outline[point])
+    if (const auto held = position_on_walls(point, place.tet, at)) one.position = *held;
+  return one;
+}
+
+/// The tetrahedron of the ball that is fewest steps away, of equal ones the lowest; no_index if none can be reached.
+std::uint32_t CornerLifter::first_in_ball(std::uint32_t from, const std::vector<std::uint32_t>& ball) const {
+  constexpr std::size_t most_visited = 50000;
+  std::uint32_t start = no_index;
+  std::unordered_map<std::uint32_t, char> visited{{from, 1}};  // looked up, never iterated over
+  std::vector<std::uint32_t> front{from}, next;
+  while (!ball.empty() && !front.empty() && visited.size() < most_visited) {
+    for (const std::uint32_t t : front)
+      if (std::binary_search(ball.begin(), ball.end(), t)) start = std::min(start, t);
+    if (start != no_index) break;
+    next.clear();
+    for (const std::uint32_t t : front)
+      for (std::uint32_t k = 0; k < 4; ++k) {
+        const std::uint32_t other = space_.layers.neighbour[4 * t + k];
+        if (other != no_index && visited.emplace(other / 4, 1).second) next.push_back(other / 4);
+      }
+    front.swap(next);
+  }
+  return start;
+}
+
+/// Those of the ball that `start` is connected with inside it, ascending.
+std::vector<std::uint32_t> CornerLifter::connected_in_ball(std::uint32_t start,
+                                                           const std::vector<std::uint32_t>& ball) const {
+  std::vector<char> is_reached(ball.size(), 0);
+  std::vector<std::uint32_t> stack{start};
+  is_reached[place_in(ball, start)] = 1;
+  while (!stack.empty()) {
+    const std::uint32_t t = stack.back();
+    stack.pop_back();
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t other = space_.layers.neighbour[4 * t + k];
+      if (other == no_index || !std::binary_search(ball.begin(), ball.end(), other / 4)) continue;
+      char& reached = is_reached[place_in(ball, other / 4)];
+      if (reached) continue;
+      reached = 1;
+      stack.push_back(other / 4);
+    }
+  }
+  std::vector<std::uint32_t> connected;
+  for (std::size_t i = 0; i < ball.size(); ++i)
+    if (is_reached[i]) connected.push_back(ball[i]);
+  return connected;
+}
+
+Lift CornerLifter::lift_on_fault(std::uint32_t corner, double w) const {
+  const std::uint32_t q = corner / 4, point = plan_.quads[q][corner % 4];
+  const Vec3 p = locator_.at(plan_.points[point], w);
+  const std::uint32_t below_centre = centre_places_[q][layers_ + static_cast<std::size_t>(std::llround(w))].tet;
+  if (options_.uses_barycentre_tet)
+    return {below_centre, locator_.outside_m(below_centre, p), locator_.lifted(below_centre, p), false, false};
+  const std::vector<std::uint32_t> ball = locator_.in_ball(p, options_.ball_ratio * edges_.local_edge_m[point]);
+  const std::uint32_t start = first_in_ball(below_centre, ball);
+  if (start == no_index) {
+    const TetLocator::Place place = locator_.locate(p, edge_m_);
+    const std::uint32_t tet = place.tet == no_index ? below_centre : place.tet;
+    return {tet, locator_.outside_m(tet, p), locator_.lifted(tet, p), true, false};
+  }
+  const std::vector<std::uint32_t> reached = connected_in_ball(start, ball);
+  Lift best{no_index, std::numeric_limits<double>::infinity(), {}, false, false};
+  for (const std::uint32_t t : reached) {
+    const double outside = locator_.outside_m(t, p);
+    if (outside < best.outside_m) best = {t, outside, {}, false, false};
+  }
+  const auto held = position_on_walls(point, start, p);
+  best.position = held ? *held : position_in(best, reached, p);
+  return best;
+}
+
+/// The position of p: where it lies a little outside, that of the nearest point of its level in one of the candidates,
+/// so that it stays on horizons, faults and sides.
+Vec3 CornerLifter::position_in(const Lift& best, const std::vector<std::uint32_t>& candidates, const Vec3& p) const {
+  if (best.outside_m <= 1e-9 * edge_m_) return locator_.lifted(best.tet, p);
+  TetLocator::LevelPoint nearest{p, std::numeric_limits<double>::infinity()};
+  std::uint32_t tet = best.tet;
+  for (const std::uint32_t t : candidates) {
+    const TetLocator::LevelPoint one = locator_.nearest_at_level(t, p);
+    if (!(one.distance_m < nearest.distance_m)) continue;
+    nearest = one;
+    tet = t;
+  }
+  return locator_.lifted(tet, nearest.at);
+}
+
+std::vector<Lift> CornerLifter::lift_column(std::uint32_t point) const {
+  return lift_levels([&](double w) { return lift(point, w); });
+}
+
+std::vector<Lift> CornerLifter::lift_column_on_fault(std::uint32_t corner) const {
+  return lift_levels([&](double w) { return lift_on_fault(corner, w); });
+}
+
+/// All levels; inside units with parallel layers, at the W whose height is wanted: W grows with height, so that secants
+/// between a point below and one above come nearer, halving where they do not.
+template <class LiftAt>
+std::vector<Lift> CornerLifter::lift_levels(LiftAt&& lift_at) const {
+  constexpr double close_ratio = 1e-6;  // of a layer
+  constexpr int most_steps = 40;
+  const StratigraphicTets& layers = space_.layers;
+  std::vector<Lift> column(layers_ + 1);
+  for (const std::uint32_t w : layers.level_w) column[w] = lift_at(w);
+  for (std::size_t unit = 0; unit + 1 < layers.level_w.size(); ++unit) {
+    const std::uint32_t floor = layers.level_w[unit], roof = layers.level_w[unit + 1];
+    const UnitLayers how = unit < layers.units.size() ? layers.units[unit] : UnitLayers{};
+    const double base_m = column[floor].position.z, top_m = column[roof].position.z;
+    const double share_m = (top_m - base_m) / (roof - floor);
+    const bool is_parallel = how.layout != LayerLayout::proportional && share_m > how.thickness_m;
+    column[roof].is_squeezed = how.layout != LayerLayout::proportional && !is_parallel;
+    for (std::uint32_t level = floor + 1; level < roof; ++level) {
+      if (!is_parallel) {
+        column[level] = lift_at(level);
+        continue;
+      }
+      const double wanted_m = how.layout == LayerLayout::parallel_to_top ? top_m - (roof - level) * how.thickness_m
+                                                                         : base_m + (level - floor) * how.thickness_m;
+      double low = floor, high = roof, low_m = base_m, high_m = top_m;
+      Lift best = column[floor];
+      for (int step = 0; step < most_steps; ++step) {
+        const double share = std::clamp((wanted_m - low_m) / (high_m - low_m), 0.01, 0.99);
+        const double w = step % 3 == 2 ? 0.5 * (low + high) : low + share * (high - low);
+        best = lift_at(w);
+        if (std::abs(best.position.z - wanted_m) <= close_ratio * how.thickness_m) break;
+        (best.position.z < wanted_m ? low : high) = w;
+        (best.position.z < wanted_m ? low_m : high_m) = best.position.z;
+        if (!(high_m > low_m)) break;
+      }
+      column[level] = best;
+    }
+  }
+  return column;
+}
+
+/// The nearest point of its level that lies on all walls the plan says it is on, as far as they can be reached from the
+/// tetrahedron `start` close by; nothing where there are none.
+std::optional<Vec3> CornerLifter::position_on_walls(std::uint32_t point, std::uint32_t start, const Vec3& p) const {
+  constexpr double reach_ratio = 0.25;  // of the shortest edge: the plan's lines moved by a tenth, and edges cut bends
+  constexpr int most_rounds = 40;
+  const double reach = std::max(options_.ball_ratio, reach_ratio) * edges_.local_edge_m[point];
+  std::vector<std::uint32_t> ball = locator_.in_ball(p, reach);
+  if (!std::binary_search(ball.begin(), ball.end(), start)) return std::nullopt;
+  struct WallFace {
+    std::uint32_t entity, face;
+  };
+  std::vector<WallFace> faces;
+  for (const std::uint32_t t : connected_in_ball(start, ball))
+    for (std::uint32_t k = 0; k < 4; ++k) {
+      const std::uint32_t entity = wall_of_face_[4 * t + k];
+      if (entity == no_index) continue;
+      const std::vector<std::uint32_t>& faults = edges_.faults_at[point];
+      const bool is_fault = space_.model.entities[entity].role == Role::fault;
+      if (is_fault ? std::binary_search(faults.begin(), faults.end(), entity) : edges_.is_on_outline[point] != 0)
+        faces.push_back({entity, 4 * t + k});
+    }
+  std::stable_sort(faces.begin(), faces.end(),
+                   [](const WallFace& a, const WallFace& b) { return a.entity < b.entity; });
+  // From wall to wall, until it moves no more: the way to where they meet.
+  Vec3 at = p;
+  std::uint32_t tet = no_index;
+  for (int round = 0; round < most_rounds; ++round) {
+    const Vec3 before = at;
+    std::size_t walls = 0;
+    for (std::size_t begin = 0, end = 0; begin < faces.size(); begin = end) {
+      TetLocator::LevelPoint nearest{p, std::numeric_limits<double>::infinity()};
+      std::uint32_t holder = no_index;
+      for (; end < faces.size() && faces[end].entity == faces[begin].entity; ++end) {
+        const TetLocator::LevelPoint one = locator_.nearest_on_face(faces[end].face / 4, faces[end].face % 4, at);
+        if (!(one.distance_m < nearest.distance_m)) continue;
+        nearest = one;
+        holder = faces[end].face / 4;
+      }
+      if (!(length(nearest.at - p) <= reach) || holder == no_index) continue;
+      at = nearest.at;
+      tet = holder;
+      ++walls;
+    }
+    if (walls < 2 || length(at - before) < 1e-12 * edge_m_) break;
+  }
+  if (tet == no_index) return std::nullopt;
+  return locator_.lifted(tet, at);
+}
+
+}  // namespace strataflow
