@@ -1,7 +1,9 @@
 #include "batch/build_graph.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "stages/baseline_stage.h"
 #include "stages/build_model_stage.h"
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
@@ -141,36 +143,74 @@ WiredQuads wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<FeatureMesh
   QuantizeStageOptions integers = quad.integers;
   ExtractQuadsOptions extraction = quad.quads;
   integers.fallback = extraction.fallback = quad.fallback;
+  integers.field = quad.field;
   const auto grid = wirer.add("quantize", Quantize{integers}, problem, seamless);
   const auto quads = wirer.add("extract_quads", ExtractQuads{extraction}, problem, grid);
   return {problem, field, seamless, grid, quads, wirer.add("draw_quads", DrawQuads{}, problem, seamless, grid, quads)};
 }
 
-void wire_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
-  TetrahedralizeOptions tets = job.tetrahedralize;
-  if (!tets.radius_edge_ratio) tets.radius_edge_ratio = 1.8;  // levels between horizons need points there
-  wired.upright =
-      wirer.add("verticalize", Verticalize{job.hex.plan}, wire_tetrahedra(wirer, job, tets, wired));
+/// The plan of hexahedra whose faults stand upright, and the hexahedra over it.
+Port<ExtrudedHexes> wire_upright_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, Port<VolumeMesh> tets,
+                                       WiredJob& wired) {
+  wired.upright = wirer.add("verticalize", Verticalize{job.hex.plan}, tets);
   wired.layered_space =
       wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
   QuadOptions quad = job.quad;
   if (job.hex.edge_length_m) quad.problem.plan.edge_length_m = *job.hex.edge_length_m;
   const auto lines = wirer.add("take_plan_lines", TakePlanLines{}, *wired.upright, input);
-  const WiredQuads plan = wire_quads(wirer, quad, wirer.add("plan_problem", PlanProblem{quad.problem}, lines));
+  wired.hex_plan_problem = wirer.add("plan_problem", PlanProblem{quad.problem}, lines);
+  if (job.hex.method == "pillars") {
+    wired.hex_plan = wirer.add("cut_pillars", CutPillars{}, *wired.hex_plan_problem);
+    wired.hex_plan_pictures = wirer.add("draw_plan", DrawPlan{}, *wired.hex_plan);
+    return wirer.add("extrude", Extrude{}, *wired.layered_space, *wired.hex_plan);
+  }
+  const WiredQuads plan = wire_quads(wirer, quad, *wired.hex_plan_problem);
   if (!wired.frame_field) {
     wired.frame_field = plan.field;
     wired.seamless_map = plan.seamless;
     wired.grid = plan.grid;
   }
-  wired.hex_plan_problem = plan.problem;
   wired.hex_plan = plan.quads;
   wired.hex_plan_pictures = plan.pictures;
-  const auto extruded = wirer.add("extrude", Extrude{}, *wired.layered_space, plan.quads);
-  wired.smoothed_hexes =
-      wirer.add("smooth_hexes", SmoothHexes{job.hex.smoothing}, *wired.layered_space, extruded);
-  wired.hexes = wirer.add("check_hexes", CheckHexes{}, *wired.smoothed_hexes, *wired.layered_space, plan.quads);
+  if (!job.hex.refinement.refine_edge_m.empty() || !job.hex.refinement.refine_within_m.empty()) {
+    wired.hex_plan = wirer.add("refine_plan", RefinePlan{job.hex.refinement}, plan.quads, *wired.upright, input);
+    wired.hex_plan_pictures = wirer.add("draw_plan", DrawPlan{}, *wired.hex_plan);
+  }
+  return wirer.add("extrude", Extrude{}, *wired.layered_space, *wired.hex_plan);
+}
+
+/// The same of upright columns that need not follow faults.
+Port<ExtrudedHexes> wire_stair_steps(JobWirer& wirer, const Job& job, Port<VolumeMesh> tets, WiredJob& wired) {
+  wired.upright = wirer.add("take_plan", TakePlan{{job.hex.plan.drop_alignment}}, tets);
+  wired.layered_space =
+      wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
+  const double edge_m = job.hex.edge_length_m.value_or(job.quad.problem.plan.edge_length_m);
+  const auto hexes = wirer.add("stair_step", StairStep{{edge_m}}, *wired.layered_space);
+  wired.hex_plan = wirer.add("take_hex_plan", TakeHexPlan{}, hexes);
+  wired.hex_plan_pictures = wirer.add("draw_plan", DrawPlan{}, *wired.hex_plan);
+  return hexes;
+}
+
+void wire_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
+  TetrahedralizeOptions options = job.tetrahedralize;
+  if (!options.radius_edge_ratio) options.radius_edge_ratio = 1.8;  // levels between horizons need points there
+  const Port<VolumeMesh> tets = wire_tetrahedra(wirer, job, options, wired);
+  const bool is_baseline = job.hex.method != "conforming";
+  const auto extruded = job.hex.method == "stairs" ? wire_stair_steps(wirer, job, tets, wired)
+                                                   : wire_upright_hexes(wirer, job, input, tets, wired);
+  SmoothHexesStageOptions smoothing = job.hex.smoothing;
+  SimulationGridStageOptions simulation = job.hex.simulation;
+  if (is_baseline) {  // pillars stay where they are, and are what the simulator gets, however far from straight
+    smoothing.smoothing_sweeps = 0;
+    if (simulation.layout == "automatic") {
+      simulation.layout = "native";
+      if (!simulation.pillar_tolerance_m) simulation.pillar_tolerance_m = std::numeric_limits<double>::max();
+    }
+  }
+  wired.smoothed_hexes = wirer.add("smooth_hexes", SmoothHexes{smoothing}, *wired.layered_space, extruded);
+  wired.hexes = wirer.add("check_hexes", CheckHexes{}, *wired.smoothed_hexes, *wired.layered_space, *wired.hex_plan);
   wired.simulation =
-      wirer.add("simulation_grid", MakeSimulationGrid{job.hex.simulation}, *wired.smoothed_hexes, *wired.hexes, input);
+      wirer.add("simulation_grid", MakeSimulationGrid{simulation}, *wired.smoothed_hexes, *wired.hexes, input);
   wired.hexes_pictures =
       wirer.add("draw_hexes", DrawMesh{}, wirer.add("hex_cells", TakeHexCells{}, *wired.hexes));
 }

@@ -19,6 +19,7 @@
 #include "io/model_file/read_model_file.h"
 #include "io/simulator/read_grdecl.h"
 #include "io/simulator/read_roff.h"
+#include "io/surface/read_irap.h"
 #include "io/surface/read_obj.h"
 #include "io/surface/read_off.h"
 #include "io/surface/read_ply.h"
@@ -52,6 +53,7 @@ constexpr std::array formats{
     InputFormat{"msh", "Gmsh 2.2 or 4.1", read_gmsh},
     InputFormat{"inp", "AVS UCD", read_ucd},
     InputFormat{"pol", "lines, 999 between them", read_pol},
+    InputFormat{"gri", "IRAP classic surface, binary or text", read_irap},
     InputFormat{"geo", "Gmsh section", read_geo},
     InputFormat{"grdecl", "corner-point grid, Eclipse keywords", read_grdecl},
     InputFormat{"roff", "corner-point grid, ROFF", read_roff},

@@ -1,5 +1,6 @@
 #include "stages/all_stages.h"
 
+#include "stages/baseline_stage.h"
 #include "stages/build_model_stage.h"
 #include "stages/check_mesh_stage.h"
 #include "stages/check_validity_stage.h"
@@ -21,6 +22,7 @@
 #include "stages/restrict_voronoi_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
+#include "stages/refine_plan_stage.h"
 #include "stages/simulation_grid_stage.h"
 #include "stages/stratigraphic_function_stage.h"
 #include "stages/tetrahedralize_stage.h"
@@ -172,6 +174,12 @@ std::vector<StageDescription> all_stages() {
       describe_stage<Verticalize>("Finds the plan in which faults stand upright", "[hex]"),
       describe_stage<FindStratigraphicFunction>("Finds the levels between layers", "[hex]"),
       describe_stage<TakePlanLines>("Hands the traces of faults, sides and wells on to the quads", ""),
+      describe_stage<RefinePlan>("Cuts quads of the plan in three where shorter edges are wanted", "[hex]"),
+      describe_stage<CutPillars>("Cuts the plan along I and J, in the place of quads", ""),
+      describe_stage<TakePlan>("Takes the model as it stands, in the place of an upright plan", ""),
+      describe_stage<StairStep>("Makes columns of cells that pass faults in steps", ""),
+      describe_stage<TakeHexPlan>("Hands the plan of columns on", ""),
+      describe_stage<DrawPlan>("Draws the plan of columns", ""),
       describe_stage<Extrude>("Makes one hexahedron per quad and layer", ""),
       describe_stage<SmoothHexes>("Improves the worst hexahedra", "[hex]"),
       describe_stage<CheckHexes>("Measures the hexahedra and judges them", ""),

@@ -29,6 +29,16 @@ ViewOptions page_view() {
   return view;
 }
 
+/// From above, north up.
+ViewOptions plan_view() {
+  ViewOptions view = page_view();
+  view.azimuth_deg = -90;
+  view.elevation_deg = 90;
+  view.height = view.width;
+  view.vertical_exaggeration = 1;
+  return view;
+}
+
 }  // namespace
 
 Result<Pictures> DrawModel::operator()(const BuiltModel& built, StageContext&) const {
@@ -58,14 +68,8 @@ Result<Pictures> DrawQuads::operator()(const FeatureMesh& problem, const Attempt
                                        const Attempt<GridMapping>& grid, const MeshedQuads& quads,
                                        StageContext&) const {
   Pictures pictures;
-  ViewOptions view = page_view();
   const bool is_plan = std::all_of(problem.points.begin(), problem.points.end(), [](const Vec3& p) { return p.z == 0; });
-  if (is_plan) {  // from above, north up
-    view.azimuth_deg = -90;
-    view.elevation_deg = 90;
-    view.height = view.width;
-    view.vertical_exaggeration = 1;
-  }
+  const ViewOptions view = is_plan ? plan_view() : page_view();
   Result<void> drawn;
   if (seamless.why_not.empty())
     drawn = draw(pictures, scene_of_field(problem, seamless.value.field.field), "The field, on the triangles below", view);
@@ -73,6 +77,13 @@ Result<Pictures> DrawQuads::operator()(const FeatureMesh& problem, const Attempt
     drawn = draw(pictures, scene_of_map(grid.value.mesh, grid.value.map), "Lines of whole numbers of the map", view);
   if (drawn) drawn = draw(pictures, scene_of_quads(quads.mesh), "Quads; bold: features", view);
   if (!drawn) return drawn.failure();
+  return pictures;
+}
+
+Result<Pictures> DrawPlan::operator()(const MeshedQuads& quads, StageContext&) const {
+  Pictures pictures;
+  if (const Result<void> drawn = draw(pictures, scene_of_quads(quads.mesh), "Quads; bold: features", plan_view()); !drawn)
+    return drawn.failure();
   return pictures;
 }
 

@@ -60,4 +60,13 @@ struct DrawQuads {
                               const Attempt<GridMapping>& grid, const MeshedQuads& quads, StageContext& context) const;
 };
 
+/// Draws quads alone, from above.
+struct DrawPlan {
+  static constexpr std::string_view name = "draw_plan";
+  static constexpr int version = 1;
+  NoOptions options;
+
+  Result<Pictures> operator()(const MeshedQuads& quads, StageContext& context) const;
+};
+
 }  // namespace strataflow

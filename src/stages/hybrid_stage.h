@@ -111,7 +111,7 @@ struct HybridOptions {
 /// sites.
 struct RemeshHybrid {
   static constexpr std::string_view name = "remesh_hybrid";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   static constexpr bool uses_seed = true;
   HybridOptions options;
 
@@ -123,7 +123,7 @@ struct RemeshHybrid {
 /// (pellerin2014 §2.11).
 struct FillHybrid {
   static constexpr std::string_view name = "fill_hybrid";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   HybridOptions options;
 
   Result<HybridMesh> operator()(const BuiltModel& surfaces, const ValidityReport& validity,

@@ -13,9 +13,6 @@ namespace strataflow {
 
 namespace {
 
-/// Newton steps of the first solve before the coarse mesh is laid over the map instead.
-constexpr std::int64_t solve_steps = 30;
-
 void take_report(const FeatureMesh& mesh, const Quantization& quantization, GridMapping& grid) {
   grid.half_edges = quantization.integers.vectors.size();
   grid.operations = quantization.integers.operations;
@@ -67,7 +64,7 @@ Result<GridMapping> mapped(const FeatureMesh& mesh, const FrameField& field, con
   foldover_free.is_cancelled = [&] { return context.is_cancelled(); };
   if (transfer != "imprint") {
     FoldoverFreeOptions first = foldover_free;
-    if (transfer == "auto") first.iterations = solve_steps;
+    first.may_start_afresh = transfer == "solve";
     Result<GridMapping> grid = solved(mesh, field, seamless, integers, first);
     if (grid || transfer == "solve" || grid.failure().code == FailureCode::cancelled) return grid;
     context.warn("imprinted", "the map could not be optimised with whole numbers, so the coarse mesh is laid over it: " +
@@ -127,7 +124,7 @@ Result<GridMapping> quantized(const FeatureMesh& mesh, const FrameField& field, 
   integers.crowded.clear();
   FoldoverFreeOptions foldover_free;
   foldover_free.is_cancelled = [&] { return context.is_cancelled(); };
-  const std::vector<FrameFieldOptions> fields = alternative_fields({});
+  const std::vector<FrameFieldOptions> fields = alternative_fields(options.field);
   for (std::size_t k = 1; k < fields.size() && !context.is_cancelled(); ++k) {
     const Result<FrameFieldResult> other = compute_frame_field(mesh, fields[k]);
     if (!other) continue;

@@ -27,10 +27,12 @@ struct QuantizeStageOptions {
   bool coarse = false;
   std::string transfer = "auto";
   QuadFallback fallback;
+  FrameFieldOptions field;  ///< as asked for: other fields, where quads would turn over, are variants of it
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     visit_own(visit);
     fallback.visit_fields(visit);
+    field.visit_fields(visit);
   }
   template <class Visitor>
   void visit_own(Visitor& visit) {
@@ -46,7 +48,7 @@ struct QuantizeStageOptions {
 /// Whole numbers for the map: quads between features and singular points (coudert2024 S36–S43).
 struct Quantize {
   static constexpr std::string_view name = "quantize";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   QuantizeStageOptions options;
 
   Result<Attempt<GridMapping>> operator()(const FeatureMesh& mesh, const Attempt<FieldAndMap>& seamless,

@@ -10,6 +10,9 @@ namespace strataflow {
 
 namespace {
 
+/// Samples of distances a triangle may take on average. Where meshes are as fine as one another ten do.
+constexpr std::uint64_t samples_per_triangle = 20;
+
 RemeshedSurfaces surfaces_of(const StructuralModel& model, RemeshGuardedResult result) {
   RemeshedSurfaces remeshed;
   remeshed.soup = std::move(result.soup);
@@ -115,14 +118,15 @@ Result<SurfacesReport> CompareSurfaces::operator()(const BuiltModel& before, con
     if (std::optional<Failure> failure = why_not_preserved(report.before, report.after)) return *failure;
   report.topology_before = topology_of(before.model);
   report.topology_after = topology_of(after.model);
-  Result<HausdorffDistance> distance = hausdorff_distance({before.model.points, before.model.triangles},
-                                                          {after.model.points, after.model.triangles},
-                                                          {.error_ratio = 3e-4, .samples_per_triangle = 40, .is_cancelled = is_cancelled});
+  const std::uint64_t triangles = before.model.triangles.size() + after.model.triangles.size();
+  Result<HausdorffDistance> distance = hausdorff_distance(
+      {before.model.points, before.model.triangles}, {after.model.points, after.model.triangles},
+      {.error_ratio = 3e-4, .samples = samples_per_triangle * triangles, .is_cancelled = is_cancelled});
   if (!distance) return distance.failure();
   report.hausdorff = *distance;
-  Result<std::vector<EntityDistance>> by_entity =
-      hausdorff_by_entity(before.model, after.model,
-                          {.error_ratio = 1e-3, .samples_per_triangle = 10, .is_cancelled = is_cancelled});
+  Result<std::vector<EntityDistance>> by_entity = hausdorff_by_entity(
+      before.model, after.model,
+      {.error_ratio = 1e-3, .samples = triangles, .is_cancelled = is_cancelled});
   if (!by_entity) return by_entity.failure();
   report.by_entity = std::move(*by_entity);
   return report;

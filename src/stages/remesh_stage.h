@@ -75,7 +75,7 @@ struct RemeshStageOptions {
 /// keeps all and leaves the mesh valid.
 struct Remesh {
   static constexpr std::string_view name = "remesh";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity,
@@ -86,7 +86,7 @@ struct Remesh {
 /// input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
 struct RemeshByCells {
   static constexpr std::string_view name = "remesh_by_cells";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity, const SiteSet& sites,
@@ -118,7 +118,7 @@ struct SurfacesReport {
 /// preserved, a corner, line, surface or region is gone or new: such a mesh is not written.
 struct CompareSurfaces {
   static constexpr std::string_view name = "compare_surfaces";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   struct Options {
     bool must_preserve_all = true;
     template <class Visitor>

@@ -6,6 +6,7 @@
 namespace strataflow {
 namespace {
 
+/// T10.
 TEST(QuadNetworks, hold_every_curve_in_quads_that_are_not_inverted) {
   for (std::uint32_t n = 0; n < 2 * network_family_count; ++n) {
     const GeneratedNetwork network = generate_network(n);

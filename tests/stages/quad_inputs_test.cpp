@@ -142,6 +142,20 @@ TEST(QuadInputs, branets_and_drogon_with_every_node_on_its_curve) {
   EXPECT_GE(at_100->quads.quality.scaled_jacobian.minimum, 0.2);
 }
 
+/// Two sides of an acute corner of one curve (F2) were once taken for a straight piece of it.
+TEST(QuadInputs, drogon_along_the_traces_of_its_fault_surfaces) {
+  const fs::path folder = data_folder() / "drogon";
+  if (!fs::exists(folder)) GTEST_SKIP() << "no data at " << folder;
+  const auto input = read_all({{folder / "outline.pol", {{}, "outline"}},
+                               {folder / "faults_F1-F6.ts", {{}, "fault", false, true}}});
+  ASSERT_TRUE(input) << describe(input.failure());
+  const auto made = quads_on(*input, 100);
+  expect_good(made);
+  ASSERT_TRUE(made);
+  EXPECT_EQ(made->problem.features.size(), 7u);
+  EXPECT_GE(made->quads.quality.scaled_jacobian.minimum, 0.2);
+}
+
 TEST(QuadInputs, the_traces_of_the_eastern_transverse_ranges) {
   const fs::path folder = data_folder() / "scec-cfm61/native_ETRA";
   if (!fs::exists(folder)) GTEST_SKIP() << "no data at " << folder;
@@ -192,7 +206,7 @@ TEST(QuadInputs, machine_parts_and_smooth_shapes) {
     double edge_m;
     std::uint64_t least_irregular;
   };
-  for (const Part& part : {Part{"torus", 8, 0}, Part{"torus", 15, 0}, Part{"bracket", 14, 30},
+  for (const Part& part : {Part{"torus", 8, 0}, Part{"torus", 20, 0}, Part{"bracket", 14, 30}, Part{"bracket", 20, 30},
                            Part{"smooth-closed", 10, 8}, Part{"slab", 60, 8}, Part{"impeller", 6, 16}}) {
     SCOPED_TRACE(std::string(part.name) + " at " + std::to_string(part.edge_m));
     const auto input = shape(part.name);

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <ctime>
 #include <string>
 #include <vector>
@@ -16,7 +17,8 @@ struct NetworkOutcome {
   constexpr static std::array<const char*, 5> stage_names{"plan", "field", "map", "quantize", "extract"};
   std::string failure;            ///< of a stage, or of the independent check; empty: quads that hold every curve
   std::string why_subdivided;     ///< the failure that the fallback stood in for
-  std::array<double, 5> cpu_s{};  ///< per stage
+  std::array<double, 5> cpu_s{};  ///< per stage, of all threads
+  std::array<double, 5> wall_s{};
   std::size_t triangles = 0, quads = 0, irregular = 0, inverted = 0, half_edges = 0;
   bool took_other_field = false, was_imprinted = false, has_unmet = false;
   double smallest_jacobian = 0, mean_jacobian = 0;
@@ -31,7 +33,9 @@ inline NetworkOutcome mesh_network(const GeneratedNetwork& network, const std::s
   StageContext context("quads");
   const auto timed = [&](std::size_t stage, auto&& call) {
     const std::clock_t start = std::clock();
+    const auto begin = std::chrono::steady_clock::now();
     auto result = call();
+    outcome.wall_s[stage] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     outcome.cpu_s[stage] = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     if (!result) outcome.failure = std::string(NetworkOutcome::stage_names[stage]) + ": " + result.failure().what;
     return result;
@@ -51,6 +55,7 @@ inline NetworkOutcome mesh_network(const GeneratedNetwork& network, const std::s
   if (!map) return outcome;
   Quantize quantize;
   quantize.options.fallback = {fallback};
+  quantize.options.field = field_options;
   const auto grid = timed(3, [&] { return quantize(*problem, *map, context); });
   if (!grid) return outcome;
   ExtractQuads extract;

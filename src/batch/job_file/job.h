@@ -19,6 +19,7 @@
 #include "stages/hybrid_stage.h"
 #include "stages/judge_surfaces_stage.h"
 #include "stages/plan_surfaces_stage.h"
+#include "stages/refine_plan_stage.h"
 #include "stages/remesh_stage.h"
 #include "stages/remove_scars_stage.h"
 #include "stages/seal_stage.h"
@@ -155,21 +156,29 @@ struct QuadOptions {
   }
 };
 
-/// [hex]: the options of four stages, and how long the edges of the plan are.
+/// [hex]: the options of five stages, how long the edges of the plan are, and which kind of grid is made.
 struct HexOptions {
+  std::string method = "conforming";
   std::optional<double> edge_length_m;
   VerticalizeOptions plan;
+  RefinePlanOptions refinement;
   LayerStageOptions layers;
   SmoothHexesStageOptions smoothing;
   SimulationGridStageOptions simulation;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
+    visit(method, OptionField{.name = "method",
+                              .description = "conforming: quads extruded, every fault followed; for comparison pillars: "
+                                             "rows of cells along faults that fit I or J; stairs: upright columns that "
+                                             "pass faults in steps",
+                              .words = {"conforming", "pillars", "stairs"}});
     visit(edge_length_m, OptionField{.name = "edge_length_m",
                                      .description = "Wanted length of the cells' edges seen from above; absent: "
                                                     "quad.edge_length_m",
                                      .minimum = 0,
                                      .exclusive_minimum = true});
     plan.visit_fields(visit);
+    refinement.visit_fields(visit);
     layers.visit_fields(visit);
     smoothing.visit_fields(visit);
     simulation.visit_fields(visit);

@@ -123,6 +123,17 @@ void check_remesh(const JobValue& root, const RemeshStageOptions& remesh, bool m
         "d_resolution_m merges what preserve = \"all\" is to keep", "remove one of them");
 }
 
+void check_hexes(const JobValue& root, const Job& job, Problems& problems) {
+  if (job.hex.method == "conforming") return;
+  const auto contradicts = [&](const char* section, const char* key, const std::string& what) {
+    add(problems, origin_of(root, section, key), what + " is for hex.method = \"conforming\"",
+        std::string("remove ") + section + "." + key + ", or method = \"" + job.hex.method + "\"");
+  };
+  if (!job.hex.refinement.refine_edge_m.empty()) contradicts("hex", "refine_edge_m", "a refined plan");
+  if (job.hex.plan.follow_horizon_lines) contradicts("hex", "follow_horizon_lines", "following lines of horizons");
+  if (!job.quad.problem.plan.fault_thickness_m.empty()) contradicts("quad", "fault_thickness_m", "a fault with a thickness");
+}
+
 void check_products(const JobValue& root, const Job& job, Problems& problems) {
   const std::string origin = origin_of(root, "output", "products");
   if (job.output.products.empty())
@@ -138,6 +149,7 @@ void check_products(const JobValue& root, const Job& job, Problems& problems) {
     add(problems, origin_of(root, "output", "formats"),
         "format 'obj' is for the products 'model' and 'surfaces', which this job does not make",
         "remove it from formats, or add a product");
+  if (job.makes("hexes")) check_hexes(root, job, problems);
   check_remesh(root, job.remesh, job.makes("surfaces") || job.output.from == "surfaces", problems);
   if (job.writes("grdecl") && !job.makes("hexes"))
     add(problems, origin_of(root, "output", "formats"),

@@ -1,6 +1,8 @@
 #include "batch/report/comparison_html.h"
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 
 #include "batch/report/html_page.h"
 
@@ -57,6 +59,41 @@ std::string tets_table(const std::vector<JobReport>& reports) {
   return table_of("Tetrahedra",
                   {"job", "cells", "vertices", "smallest dihedral angle, °", "the same outside wedges, °",
                    "0.1 % of them are below, °", "inverted", "faces that do not conform"},
+                  rows);
+}
+
+std::string hexes_table(const std::vector<JobReport>& reports) {
+  Rows rows;
+  for (const JobReport& report : reports) {
+    if (!report.hexes || !report.simulation) continue;
+    const HexAudit& audit = report.hexes->audit;
+    const auto furthest = [&](std::initializer_list<Role> roles, double SurfaceAudit::*distance_m) {
+      double most = 0;
+      for (const SurfaceAudit& surface : audit.surfaces)
+        for (const Role role : roles)
+          if (surface.role == to_string(role)) most = std::max(most, surface.*distance_m);
+      return readable_number(most);
+    };
+    double misplaced_m3 = 0, all_m3 = 0;
+    for (const RegionVolumeAudit& region : audit.regions) {
+      misplaced_m3 += std::abs(region.grid_m3 - region.model_m3);
+      all_m3 += region.model_m3;
+    }
+    const SimulationGridReport& simulation = report.simulation->grid.report;
+    rows.push_back(
+        {report.job->header.name, report.job->hex.method, count(audit.cells - audit.dead), count(audit.dead),
+         readable_number(audit.min_scaled_jacobian), readable_number(audit.mean_scaled_jacobian),
+         readable_number(audit.lateral_deg.mean()), readable_number(audit.lateral_deg.maximum),
+         furthest({Role::horizon, Role::unconformity}, &SurfaceAudit::furthest_m),
+         furthest({Role::horizon, Role::unconformity}, &SurfaceAudit::furthest_on_traces_m),
+         furthest({Role::fault}, &SurfaceAudit::furthest_m), readable_number(100 * misplaced_m3 / all_m3), simulation.layout,
+         count(simulation.lateral_connections + simulation.vertical_connections + simulation.fault_connections)});
+  }
+  return table_of("Hexahedra",
+                  {"job", "method", "cells", "without volume", "smallest scaled Jacobian", "mean",
+                   "angle between faces and centre lines, mean, °", "largest, °", "vertices of horizons, furthest, m",
+                   "the same over faults, m", "vertices of faults, furthest, m", "volume in other regions, %",
+                   "layout", "connections beside those by index"},
                   rows);
 }
 
@@ -122,7 +159,7 @@ std::string complexity_section(const std::vector<JobReport>& reports) {
 
 std::string comparison_html(const std::vector<JobReport>& reports) {
   const std::string body = "<h1>" + count(reports.size()) + " jobs side by side</h1>\n" + surfaces_table(reports) +
-                           tets_table(reports) + complexity_section(reports);
+                           tets_table(reports) + hexes_table(reports) + complexity_section(reports);
   return html_page("Comparison – strataflow", body);
 }
 

@@ -1,7 +1,10 @@
 #include "batch/report/report_html.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 #include "batch/program_version.h"
 #include "batch/report/html_page.h"
@@ -291,10 +294,57 @@ std::string hybrid_section(const HybridMesh& hybrid, const VolumeQualityReport& 
   return html;
 }
 
+std::string frames_section(const FramedMesh& frames) {
+  std::vector<std::pair<double, const Polyline*>> curves;
+  double whole_m = 0;
+  for (const Polyline& line : frames.singular) {
+    double length_m = 0;
+    for (std::size_t i = 0; i + (line.is_closed ? 0 : 1) < line.points.size(); ++i)
+      length_m += length(line.points[(i + 1) % line.points.size()] - line.points[i]);
+    curves.emplace_back(length_m, &line);
+    whole_m += length_m;
+  }
+  std::string html = "<h2>Frames</h2>\n";
+  html += html_table({}, {{"cells", count(frames.mesh.cell_count())},
+                          {"energy", readable_number(frames.energy)},
+                          {"diffusion steps", std::to_string(frames.iterations)},
+                          {"smallest determinant of three directions", readable_number(frames.smallest_determinant)},
+                          {"singular curves", count(curves.size())},
+                          {"their length, m", readable_number(whole_m)}});
+  if (frames.smallest_determinant < 0.1)
+    html += "<p class=\"note\">Somewhere three directions nearly lie in a plane: frames.orthogonality keeps them apart.</p>\n";
+  constexpr std::size_t most_curves = 20;
+  std::stable_sort(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  const auto place = [&](const Vec3& p) {
+    const Vec3 q = p + frames.mesh.local_origin;
+    return readable_number(q.x) + ", " + readable_number(q.y) + ", " + readable_number(q.z);
+  };
+  Rows rows;
+  for (const auto& [length_m, line] : curves) {
+    if (rows.size() == most_curves) break;
+    rows.push_back({readable_number(length_m), line->is_closed ? "closed" : "open", place(line->points.front()),
+                    place(line->points.back())});
+  }
+  if (!rows.empty()) html += html_table({"singular curve, m", "", "from", "to"}, rows);
+  if (curves.size() > most_curves)
+    html += "<p class=\"note\">The others are in frames_singular.vtp.</p>\n";
+  Distribution angles("angle_between_directions_deg", 0, 90, 18);
+  for (std::size_t c = 0; c < frames.mesh.cell_count(); ++c)
+    for (std::size_t i = 0; i < frames.directions.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        double cosine = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+          cosine += frames.directions[i].values[3 * c + k] * frames.directions[j].values[3 * c + k];
+        angles.add(std::acos(std::min(1.0, std::abs(cosine))) * 180 / std::numbers::pi);
+      }
+  return html + "<div class=\"row\">\n" + svg_histogram(angles) + "</div>\n";
+}
+
 std::string hexes_section(const JobReport& report) {
   const HexGrid& grid = report.smoothed_hexes->hexes.grid;
   std::string html = volume_section("Hexahedra", report.hexes->live.mesh, report.hexes->quality);
-  Rows rows = {{"layers", count(grid.layers)},
+  Rows rows = {{"method", report.job->hex.method},
+               {"layers", count(grid.layers)},
                {"quads of the plan", count(grid.plan.quads.size())},
                {"singular vertices of the plan", count(report.hexes->singular_vertices)},
                {"cells without volume", count(report.smoothed_hexes->hexes.report.dead)},
@@ -336,6 +386,7 @@ std::string report_html(const JobReport& report) {
   if (report.hexes && report.hex_plan)
     body += hexes_section(report) + pictures_html(report.hexes_pictures) + "<h3>Plan</h3>\n" +
             pictures_html(report.hex_plan_pictures);
+  if (report.frames) body += frames_section(*report.frames);
   body += stages_section(report);
   return html_page(name + " – strataflow", body);
 }

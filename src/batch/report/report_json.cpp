@@ -271,14 +271,14 @@ Json json_of(const DihedralQuantiles& angles) {
           {"outside_wedges", listed(angles.outside_wedges)}};
 }
 
-Json quads_block(const FeatureMesh& problem, const MeshedQuads& quads, const Attempt<FieldAndMap>* seamless,
+Json quads_block(const FeatureMesh* problem, const MeshedQuads& quads, const Attempt<FieldAndMap>* seamless,
                  const Attempt<GridMapping>* grid) {
   const QuadQuality& quality = quads.quality;
   std::vector<Distribution> spreads{quality.scaled_jacobian, quality.angle_deg, quality.edge_length_m};
   Json block = {{"quads", quads.mesh.quads.size()},
                 {"vertices", quads.mesh.points.size()},
-                {"edge_length_m", problem.edge_length_m},
-                {"triangles", problem.triangles.size()},
+                {"edge_length_m", problem ? problem->edge_length_m : quads.quality.edge_length_m.mean()},
+                {"triangles", problem ? problem->triangles.size() : 0},
                 {"interior_irregular", quality.interior_irregular},
                 {"interior_valence", quality.interior_valence},
                 {"boundary_valence", quality.boundary_valence},
@@ -286,7 +286,7 @@ Json quads_block(const FeatureMesh& problem, const MeshedQuads& quads, const Att
                 {"min_scaled_jacobian", quality.scaled_jacobian.minimum},
                 {"min_scaled_jacobian_before_smoothing", quads.scaled_jacobian_before},
                 {"mean_scaled_jacobian", quality.scaled_jacobian.mean()},
-                {"features", problem.features.size()},
+                {"features", problem ? problem->features.size() : quads.mesh.features.size()},
                 {"features_missing", quads.missing.size()},
                 {"fallback", quads.why_subdivided.empty() ? Json(nullptr) : Json(quads.why_subdivided)},
                 {"histograms", json_of(spreads)},
@@ -373,6 +373,11 @@ Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, 
                      {"centres", report.centre_points},
                      {"apexes", report.apex_points},
                      {"fill", report.fill_points}};
+  block["improvement"] = {{"exchanges", report.improvement.exchanges},
+                          {"moves", report.improvement.moves},
+                          {"added_points", report.improvement.added_points},
+                          {"smallest_scaled_jacobian_before", report.improvement.smallest_before},
+                          {"smallest_scaled_jacobian_after", report.improvement.smallest_after}};
   block["anisotropy_ratio"] = {{"min", report.min_anisotropy_ratio},
                                {"mean", report.mean_anisotropy_ratio},
                                {"max", report.max_anisotropy_ratio}};
@@ -478,7 +483,8 @@ Json hexes_block(const JobReport& report) {
   block["untangling"] = {{"turned_over_at_first", report.layered_space->turned_over_at_first},
                          {"steps", report.layered_space->untangling_steps}};
   block["audit"] = json_of_fields(report.hexes->audit);
-  block["plan"] = quads_block(*report.hex_plan_problem, *report.hex_plan, nullptr, nullptr);
+  block["method"] = report.job->hex.method;
+  block["plan"] = quads_block(report.hex_plan_problem.get(), *report.hex_plan, nullptr, nullptr);
   if (report.simulation) block["simulation_grid"] = simulation_block(*report.simulation);
   return block;
 }
@@ -509,7 +515,7 @@ std::string report_json(const JobReport& report) {
         surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
   if (report.complexity) json["complexity"] = complexity_json(*report.complexity);
   if (report.quads && report.plan_problem)
-    json["quads"] = quads_block(*report.plan_problem, *report.quads, report.seamless_map.get(), report.grid.get());
+    json["quads"] = quads_block(report.plan_problem.get(), *report.quads, report.seamless_map.get(), report.grid.get());
   if (report.hybrid && report.hybrid_quality && report.hybrid_remeshed && report.hybrid_surfaces_report)
     json["hybrid"] = hybrid_block(*report.hybrid, *report.hybrid_quality, *report.hybrid_remeshed,
                                   *report.hybrid_surfaces_report);

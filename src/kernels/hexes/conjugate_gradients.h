@@ -3,29 +3,20 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels/adapters/sparse/symmetric_system.h"
+#include "kernels/hexes/multigrid.h"
 
 namespace strataflow {
 
-/// A symmetric positive definite matrix, both triangles, row by row.
-struct SymmetricRows {
-  std::vector<std::uint32_t> first;    ///< per row, plus one
-  std::vector<std::uint32_t> columns;  ///< ascending in each row
-  std::vector<double> values;
-  std::uint32_t size() const { return static_cast<std::uint32_t>(first.size()) - 1; }
-};
-
-/// Sums up entries of a lower triangle; several may lie at one place.
-SymmetricRows symmetric_rows(std::uint32_t size, const std::vector<MatrixEntry>& lower);
-
-/// Solves A x = b by conjugate gradients, scaled by the diagonal, from x; until the residual is below
+/// Solves A x = b by conjugate gradients that a multigrid of A guides, from x; until the residual is below
 /// `tolerance_ratio` of b's or `most_steps` are done. Returns the steps. The same bits on every schedule.
-std::size_t conjugate_gradients(const SymmetricRows& matrix, const std::vector<double>& b, std::vector<double>& x,
+std::size_t conjugate_gradients(const Multigrid& guide, const std::vector<double>& b, std::vector<double>& x,
                                 double tolerance_ratio, std::size_t most_steps);
 
-/// x with A x = b for each b: factorised once where that is cheap (up to 40 000 unknowns), by conjugate gradients
-/// beyond. Fails where factorising fails.
+/// x with A x = b for each b, A symmetric positive definite and given by its lower triangle: factorised once if small,
+/// by one multigrid and conjugate gradients otherwise. `starts` (per b; or none) are near x. Fails with geometry_failed
+/// where neither works.
 Result<std::vector<std::vector<double>>> solve_symmetric(std::uint32_t size, const std::vector<MatrixEntry>& lower,
-                                                         const std::vector<std::vector<double>>& right);
+                                                         const std::vector<std::vector<double>>& right,
+                                                         std::vector<std::vector<double>> starts = {});
 
 }  // namespace strataflow

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
+#include "graph/parallel/parallel_map.h"
 #include "kernels/hexes/conjugate_gradients.h"
 
 namespace strataflow {
@@ -34,29 +36,55 @@ std::vector<Vec3> gravity_field(const LabelledTets& tets) {
     free.first = size;
     size += free.count;
   }
+  // (2.3) row by row: what is the same on both sides of a face costs nothing.
   constexpr double holding = 1e-9;  // where no wall says anything, straight down
-  std::vector<MatrixEntry> matrix;
-  std::vector<double> right(size, 0);
-  for (std::uint32_t i = 0; i < size; ++i) matrix.push_back({i, i, holding});
-  for (std::uint32_t face = 0; face < tets.neighbour.size(); ++face) {
-    if (tets.neighbour[face] == no_index || tets.neighbour[face] < face) continue;
-    const std::array<const Freedom*, 2> both{&freedom[face / 4], &freedom[tets.neighbour[face] / 4]};
-    const Vec3 offset = both[0]->fixed - both[1]->fixed;
-    for (std::uint32_t s = 0; s < 2; ++s)
-      for (std::uint32_t i = 0; i < both[s]->count; ++i) {
-        const std::uint32_t row = both[s]->first + i;
-        right[row] += (s == 0 ? -1 : 1) * dot(both[s]->axes[i], offset);
-        for (std::uint32_t r = 0; r < 2; ++r)
-          for (std::uint32_t j = 0; j < both[r]->count; ++j) {
-            const std::uint32_t column = both[r]->first + j;
-            if (row < column) continue;
-            const double value = (r == s ? 1 : -1) * dot(both[s]->axes[i], both[r]->axes[j]);
-            if (value != 0) matrix.push_back({row, column, value});
-          }
+  SparseRows matrix;
+  matrix.first.assign(size + 1, 0);
+  const auto others_of = [&](std::uint32_t t, auto&& visit) {
+    for (std::uint32_t face = 4 * t; face < 4 * t + 4; ++face)
+      if (tets.neighbour[face] != no_index) visit(freedom[tets.neighbour[face] / 4]);
+  };
+  parallel_ranges(freedom.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t)
+      for (std::uint32_t i = 0; i < freedom[t].count; ++i) {
+        std::uint32_t& count = matrix.first[freedom[t].first + i + 1];
+        count = 1;
+        others_of(static_cast<std::uint32_t>(t), [&](const Freedom& other) {
+          for (std::uint32_t j = 0; j < other.count; ++j) count += dot(freedom[t].axes[i], other.axes[j]) != 0 ? 1 : 0;
+        });
       }
-  }
+  });
+  for (std::uint32_t i = 0; i < size; ++i) matrix.first[i + 1] += matrix.first[i];
+  matrix.columns.resize(matrix.first.back());
+  matrix.values.resize(matrix.first.back());
+  std::vector<double> right(size, 0);
+  SoftModes modes{{}, std::vector<std::array<double, 2>>(size), 2};
+  for (const Freedom& free : freedom) modes.first.push_back(free.first);
+  modes.first.push_back(size);
+  parallel_ranges(freedom.size(), 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t t = begin; t < end; ++t) {
+      const Freedom& free = freedom[t];
+      for (std::uint32_t i = 0; i < free.count; ++i) {
+        const std::uint32_t row = free.first + i;
+        std::uint32_t at = matrix.first[row];
+        matrix.columns[at] = row;
+        double& diagonal = matrix.values[at++] = holding;
+        others_of(static_cast<std::uint32_t>(t), [&](const Freedom& other) {
+          diagonal += 1;
+          right[row] += dot(free.axes[i], other.fixed - free.fixed);
+          for (std::uint32_t j = 0; j < other.count; ++j) {
+            const double value = dot(free.axes[i], other.axes[j]);
+            if (value == 0) continue;
+            matrix.columns[at] = other.first + j;
+            matrix.values[at++] = -value;
+          }
+        });
+        modes.of_unknown[row] = {free.axes[i].x, free.axes[i].y};
+      }
+    }
+  });
   std::vector<double> y(size, 0);
-  conjugate_gradients(symmetric_rows(size, matrix), right, y, 1e-8, 2000);
+  conjugate_gradients(Multigrid(std::move(matrix), std::move(modes)), right, y, 1e-8, 2000);
   std::vector<Vec3> field;
   field.reserve(freedom.size());
   for (const Freedom& free : freedom) {

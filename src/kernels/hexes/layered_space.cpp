@@ -4,6 +4,7 @@
 
 #include "kernels/hexes/plan_lines.h"
 #include "kernels/hexes/refine_tets.h"
+#include "kernels/hexes/steepen_layers.h"
 #include "kernels/hexes/verticalise.h"
 
 namespace strataflow {
@@ -48,10 +49,16 @@ Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels
   space.plan = std::move(plan);
   std::size_t split = 0;
   for (int round = 0;; ++round) {
-    Result<StratigraphicTets> layers = find_stratigraphic_function(space.model, space.levels, options);
+    Result<StratigraphicTets> layers = find_stratigraphic_function(
+        space.model, space.levels, options, round == 0 ? nullptr : &space.layers);
     if (!layers) return layers.failure();
     space.layers = std::move(*layers);
     space.flipped = flipped_in_layers(space.layers, space.plan);
+    if (!space.flipped.empty()) {
+      const Result<std::size_t> steepened = steepen_layers(space.model, space.levels, space.plan, space.layers);
+      if (!steepened) return steepened.failure();
+      space.flipped = flipped_in_layers(space.layers, space.plan);
+    }
     if (space.flipped.empty() || round == rounds) break;
     const std::size_t count =
         split_flat_diagonals(space.model, space.levels, space.plan, space.layers, space.flipped);

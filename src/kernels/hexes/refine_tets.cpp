@@ -7,6 +7,8 @@
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/hexes/level_ranges.h"
 #include "kernels/hexes/wall_sheets.h"
+#include "kernels/topology/sorted_unique.h"
+#include "kernels/volumes/tet_faces.h"
 
 namespace strataflow {
 namespace {
@@ -58,18 +60,62 @@ bool is_positive(const std::vector<Vec3>& p, const Tet& tet) {
   return orientation_3d(p[tet[0]], p[tet[1]], p[tet[2]], p[tet[3]]) > 0;
 }
 
-/// Splits as many of `edges` as do not share a tet, at their middles. Returns how many.
+/// Finds neighbours and facets anew for `changed` tetrahedra, the new ones among them, and for those beside them.
+/// Facets from `first_new_facet` on are new.
+void reconnect(LabelledTets& tets, const std::vector<std::uint32_t>& changed, std::size_t first_new_facet) {
+  const auto old_count = static_cast<std::uint32_t>(tets.neighbour.size() / 4);
+  std::vector<char> is_changed(tets.tets.size(), 0);
+  std::vector<std::uint32_t> near = changed, facets;
+  for (const std::uint32_t t : changed) {
+    is_changed[t] = 1;
+    for (std::uint32_t face = 4 * t; face < 4 * t + 4 && t < old_count; ++face) {
+      if (tets.neighbour[face] != no_index) near.push_back(tets.neighbour[face] / 4);
+      if (tets.facet_of[face] != no_index) facets.push_back(tets.facet_of[face]);
+    }
+  }
+  for (std::size_t f = first_new_facet; f < tets.facets.size(); ++f) facets.push_back(static_cast<std::uint32_t>(f));
+  near = sorted_unique(std::move(near));
+  facets = sorted_unique(std::move(facets));
+  std::vector<Tet> corners;
+  std::vector<Triangle> triangles;
+  for (const std::uint32_t t : near) corners.push_back(tets.tets[t]);
+  for (const std::uint32_t f : facets) triangles.push_back(tets.facets[f].vertices);
+  tets.neighbour.resize(4 * tets.tets.size(), no_index);
+  tets.facet_of.resize(4 * tets.tets.size(), no_index);
+  const std::vector<FaceEntry> faces = grouped_faces(triangles, tets.points.size(), corners);
+  const auto face_of = [&](const FaceEntry& entry) { return 4 * near[entry.id / 4] + entry.id % 4; };
+  for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+    while (end < faces.size() && faces[end].has_same_vertices(faces[i])) ++end;
+    const std::size_t first = faces[i].is_facet ? i + 1 : i;
+    if (std::none_of(faces.begin() + first, faces.begin() + end,
+                     [&](const FaceEntry& entry) { return is_changed[near[entry.id / 4]]; }))
+      continue;  // what it touches is not among these
+    STRATAFLOW_ASSERT((end - first == 1 && first > i) || (end - first == 2 && !faces[first].is_facet),
+                      "refined tetrahedra do not conform");
+    for (std::size_t f = first; f < end; ++f) {
+      tets.facet_of[face_of(faces[f])] = first > i ? facets[faces[i].id] : no_index;
+      tets.neighbour[face_of(faces[f])] = end - first == 2 ? face_of(faces[f == first ? first + 1 : first]) : no_index;
+    }
+  }
+}
+
+/// Splits as many of `edges`, which ascend, as do not share a tet, at their middles. Returns how many.
 std::size_t split_edges(LabelledTets& mesh, std::vector<std::uint32_t>& unit, const std::vector<Edge>& edges,
                         std::vector<Vec3>* plan) {
+  if (edges.empty()) return 0;
+  std::vector<char> is_end(mesh.points.size(), 0);
+  for (const Edge& edge : edges) is_end[edge[0]] = is_end[edge[1]] = 1;
   std::vector<std::array<std::uint32_t, 2>> around;  // edge, tet
   for (std::uint32_t t = 0; t < mesh.tets.size(); ++t)
     for (const auto& [i, j] : tet_edges) {
+      if (!is_end[mesh.tets[t][i]] || !is_end[mesh.tets[t][j]]) continue;
       const auto found = std::lower_bound(edges.begin(), edges.end(), edge_of(mesh.tets[t][i], mesh.tets[t][j]));
       if (found != edges.end() && *found == edge_of(mesh.tets[t][i], mesh.tets[t][j]))
         around.push_back({static_cast<std::uint32_t>(found - edges.begin()), t});
     }
   std::sort(around.begin(), around.end());
   std::vector<char> is_taken(mesh.tets.size(), 0);
+  std::vector<std::uint32_t> changed;
   std::vector<std::uint32_t> middle(edges.size(), no_index);
   std::size_t count = 0;
   for (std::size_t begin = 0, end = 0; begin < around.size(); begin = end) {
@@ -94,6 +140,7 @@ std::size_t split_edges(LabelledTets& mesh, std::vector<std::uint32_t>& unit, co
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t t = around[i][1];
       is_taken[t] = 1;
+      changed.insert(changed.end(), {t, static_cast<std::uint32_t>(mesh.tets.size())});
       mesh.tets.push_back(replaced(mesh.tets[t], a, at));
       mesh.region.push_back(mesh.region[t]);
       unit.push_back(unit[t]);
@@ -104,6 +151,7 @@ std::size_t split_edges(LabelledTets& mesh, std::vector<std::uint32_t>& unit, co
   for (std::size_t f = 0; f < facet_count; ++f)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = mesh.facets[f].vertices[k], b = mesh.facets[f].vertices[(k + 1) % 3];
+      if (a >= is_end.size() || b >= is_end.size() || !is_end[a] || !is_end[b]) continue;
       const auto found = std::lower_bound(edges.begin(), edges.end(), edge_of(a, b));
       if (found == edges.end() || *found != edge_of(a, b) || middle[found - edges.begin()] == no_index) continue;
       SheetFacet second = mesh.facets[f];
@@ -112,12 +160,8 @@ std::size_t split_edges(LabelledTets& mesh, std::vector<std::uint32_t>& unit, co
       mesh.facets.push_back(second);
       break;  // no other edge of it is split: its tetrahedron is taken
     }
+  if (count > 0) reconnect(mesh, changed, facet_count);
   return count;
-}
-
-void reconnect(LabelledTets& tets) {
-  const Result<void> connected = connect_tets(tets);
-  STRATAFLOW_ASSERT(static_cast<bool>(connected), "refined tetrahedra do not conform");
 }
 
 }  // namespace
@@ -129,7 +173,6 @@ std::size_t split_level_chords(LabelledTets& tets, StratigraphicLevels& levels, 
     const std::size_t count = split_edges(tets, levels.unit, find_chords(tets, levels), plan);
     if (count == 0) break;
     all += count;
-    reconnect(tets);
   }
   return all;
 }
@@ -154,9 +197,7 @@ std::size_t split_flat_diagonals(LabelledTets& tets, StratigraphicLevels& levels
     }
   }
   sort_unique(diagonals);
-  const std::size_t count = split_edges(tets, levels.unit, diagonals, &plan);
-  if (count > 0) reconnect(tets);
-  return count;
+  return split_edges(tets, levels.unit, diagonals, &plan);
 }
 
 std::size_t split_wall_chords(LabelledTets& tets, StratigraphicLevels& levels) {
@@ -187,7 +228,6 @@ std::size_t split_wall_chords(LabelledTets& tets, StratigraphicLevels& levels) {
     const std::size_t count = split_edges(tets, levels.unit, chords, nullptr);
     if (count == 0) break;
     all += count;
-    reconnect(tets);
   }
   return all;
 }
@@ -195,6 +235,7 @@ std::size_t split_wall_chords(LabelledTets& tets, StratigraphicLevels& levels) {
 std::size_t separate_walls(LabelledTets& tets, StratigraphicLevels& levels) {
   const auto tet_count = static_cast<std::uint32_t>(tets.tets.size());
   std::size_t all = 0;
+  std::vector<std::uint32_t> changed;
   for (std::uint32_t t = 0; t < tet_count; ++t) {
     std::uint32_t walls = 0;
     for (std::uint32_t k = 0; k < 4; ++k) walls += tets.is_wall(4 * t + k) ? 1 : 0;
@@ -209,14 +250,16 @@ std::size_t separate_walls(LabelledTets& tets, StratigraphicLevels& levels) {
       continue;
     }
     ++all;
+    changed.push_back(t);
     for (std::size_t k = 1; k < 4; ++k) {
+      changed.push_back(static_cast<std::uint32_t>(tets.tets.size()));
       tets.tets.push_back(replaced(tet, tet[k], centre));
       tets.region.push_back(tets.region[t]);
       levels.unit.push_back(levels.unit[t]);
     }
     tets.tets[t] = replaced(tet, tet[0], centre);
   }
-  if (all > 0) reconnect(tets);
+  if (all > 0) reconnect(tets, changed, tets.facets.size());
   return all;
 }
 

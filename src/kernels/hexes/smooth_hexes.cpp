@@ -23,17 +23,34 @@ class HexSmoother {
     find_cells_around();
     find_freedom();
     find_colours();
+    quality_ = parallel_map(
+        mesh_.cell_count(), [&](std::size_t c) { return scaled_jacobian(corners(c)); }, 1024);
     HexSmoothing result;
     result.min_before = worst();
+    // Only where cells changed can there be anything new to find.
+    std::vector<char> is_waiting(mesh_.points.size(), 1);
     for (; result.sweeps < options_.sweeps; ++result.sweeps) {
       std::uint64_t moved = 0;
       for (const std::vector<std::uint32_t>& colour : colours_) {
-        const std::vector<Vec3> places = parallel_map(
-            colour.size(), [&](std::size_t i) { return better_place(colour[i]); }, 32);
+        const std::vector<char> has_moved = parallel_map(
+            colour.size(),
+            [&](std::size_t i) -> char {
+              const std::uint32_t v = colour[i];
+              if (!is_waiting[v]) return 0;
+              is_waiting[v] = 0;
+              const Vec3 place = better_place(v);
+              if (place == mesh_.points[v]) return 0;
+              mesh_.points[v] = place;  // no other of this colour looks at it
+              for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k)
+                quality_[corners_[k] / 8] = scaled_jacobian(corners(corners_[k] / 8));
+              return 1;
+            },
+            64);
         for (std::size_t i = 0; i < colour.size(); ++i) {
-          if (mesh_.points[colour[i]] == places[i]) continue;
-          mesh_.points[colour[i]] = places[i];
+          if (!has_moved[i]) continue;
           ++moved;
+          for (std::uint32_t k = first_[colour[i]]; k < first_[colour[i] + 1]; ++k)
+            for (std::uint32_t c = 0; c < 8; ++c) is_waiting[mesh_.cell_vertices[corners_[k] / 8 * 8 + c]] = 1;
         }
       }
       result.moves += moved;
@@ -100,31 +117,32 @@ class HexSmoother {
 
   /// Vertices of one colour share no cell.
   void find_colours() {
-    std::vector<std::uint32_t> colour(mesh_.points.size(), no_index);
-    std::vector<std::uint32_t> taken;
+    std::vector<std::uint32_t> colour(mesh_.points.size(), no_index), taken_by;  // per colour: last vertex beside it
     for (std::uint32_t v = 0; v < mesh_.points.size(); ++v) {
       if (freedom_[v] == -2) continue;
-      taken.clear();
       for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
         for (std::uint32_t k = 0; k < 8; ++k) {
           const std::uint32_t other = colour[mesh_.cell_vertices[corners_[i] / 8 * 8 + k]];
-          if (other != no_index) taken.push_back(other);
+          if (other != no_index) taken_by[other] = v;
         }
-      taken = sorted_unique(std::move(taken));
       std::uint32_t mine = 0;
-      while (mine < taken.size() && taken[mine] == mine) ++mine;
+      while (mine < taken_by.size() && taken_by[mine] == v) ++mine;
+      if (mine == taken_by.size()) taken_by.push_back(no_index);
       colour[v] = mine;
       if (colours_.size() <= mine) colours_.resize(mine + 1);
       colours_[mine].push_back(v);
     }
   }
 
-  double quality_at(std::uint32_t v, const Vec3& place) const {
+  /// The worst of the cells around with v at `place`; stops as soon as one is not above `enough`.
+  double quality_at(std::uint32_t v, const Vec3& place, double enough) const {
     double least = 1;
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+    for (std::uint32_t i = first_[v]; i < first_[v + 1] && least > enough; ++i) {
       std::array<Vec3, 8> p = corners(corners_[i] / 8);
       p[corners_[i] % 8] = place;
-      least = std::min(least, scaled_jacobian(p));
+      const double quality = scaled_jacobian(p);
+      if (!(quality > 0) && quality_[corners_[i] / 8] > 0) return -1;  // none is turned over for the sake of others
+      least = std::min(least, quality);
     }
     return least;
   }
@@ -139,7 +157,8 @@ class HexSmoother {
   /// The best of: some way to the mean of the neighbours, and a little along each edge.
   Vec3 better_place(std::uint32_t v) const {
     const Vec3 from = mesh_.points[v];
-    double best = quality_at(v, from);
+    double best = 1;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) best = std::min(best, quality_[corners_[i] / 8]);
     if (best >= options_.below_quality) return from;
     std::vector<std::uint32_t> ends;
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
@@ -152,7 +171,7 @@ class HexSmoother {
     Vec3 place = from;
     const auto offer = [&](const Vec3& candidate) {
       const Vec3 at = held(v, candidate);
-      const double quality = quality_at(v, at);
+      const double quality = quality_at(v, at, best + 1e-9);
       if (!(quality > best + 1e-9)) return;
       best = quality;
       place = at;
@@ -164,9 +183,10 @@ class HexSmoother {
   }
 
   double worst() const {
-    const std::vector<double> quality = parallel_map(
-        mesh_.cell_count(), [&](std::size_t c) { return has_volume(c) ? scaled_jacobian(corners(c)) : 1.0; }, 1024);
-    return quality.empty() ? 0 : *std::min_element(quality.begin(), quality.end());
+    double least = quality_.empty() ? 0 : 1;
+    for (std::size_t c = 0; c < quality_.size(); ++c)
+      if (has_volume(c)) least = std::min(least, quality_[c]);
+    return least;
   }
 
   struct Surface {
@@ -180,6 +200,7 @@ class HexSmoother {
   const SmoothHexesOptions& options_;
   std::vector<std::uint32_t> first_, corners_;  // per vertex: 8·cell + corner
   std::vector<char> is_full_;                   // per cell: no vertical edge without length
+  std::vector<double> quality_;                 // per cell: scaled Jacobian
   std::vector<std::int32_t> freedom_;
   std::vector<Surface> surfaces_;               // per entity
   std::vector<std::vector<std::uint32_t>> colours_;

@@ -21,8 +21,8 @@ struct HexSmoothing {
   }
 };
 
-/// Moves vertices so that the worst scaled Jacobian of the cells around each never falls and mostly rises. Vertices over
-/// features of the plan (faults, sides, wells, curves) stay, and so do those of cells without full volume; those on
+/// Moves vertices so that the worst scaled Jacobian of the cells around each never falls and mostly rises, and no cell
+/// is turned over for it. Vertices over features of the plan (faults, sides, wells, curves) stay, and so do those of cells without full volume; those on
 /// horizons, top and bottom slide on their triangles. Vertices that share a cell move one after the other, all others at
 /// the same time; the same bits on every schedule. Fails with invalid_options.
 Result<HexSmoothing> smooth_hexes(ExtrudedHexes& hexes, const LayeredSpace& space, const SmoothHexesOptions& options = {});

@@ -6,7 +6,6 @@
 
 #include "base/internal_error.h"
 #include "graph/parallel/parallel_map.h"
-#include "graph/parallel/sort_total_order.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/hexes/conjugate_gradients.h"
 #include "kernels/hexes/level_ranges.h"
@@ -78,7 +77,7 @@ class FunctionSearch {
  public:
   FunctionSearch(const LabelledTets& tets, const StratigraphicLevels& levels) : tets_(tets), levels_(levels) {}
 
-  Result<StratigraphicTets> find(LayerPlan plan) {
+  Result<StratigraphicTets> find(LayerPlan plan, const StratigraphicTets* near) {
     split_ = split_along_faults(tets_);
     ranges_ = level_ranges(tets_, levels_, split_);
     result_.level_w = std::move(plan.heights);
@@ -87,12 +86,31 @@ class FunctionSearch {
     make_copies();
     make_tets();
     connect();
+    if (near) start_from(*near);
     if (const Result<void> solved = solve(); !solved) return solved.failure();
     return std::move(result_);
   }
 
  private:
-  bool has_level(std::uint32_t copy) const { return !ranges_[copy].is_empty(); }
+  /// Free copies of points that were there take what they had; the new ones, the mean of those around them.
+  void start_from(const StratigraphicTets& near) {
+    std::size_t next = 0;
+    for (std::uint32_t c = 0; c < result_.point.size(); ++c) {
+      while (next < near.point.size() && near.point[next] < result_.point[c]) ++next;
+      const bool is_known = next < near.point.size() && near.point[next] == result_.point[c];
+      if (is_free_[c]) result_.w[c] = is_known ? near.w[next] : std::nan("");
+      if (is_known) ++next;
+    }
+    std::vector<std::array<double, 2>> mean(result_.point.size(), {0, 0});
+    for (std::uint32_t t = 0; t < result_.model_tets; ++t)
+      for (const std::uint32_t to : result_.tets[t])
+        for (const std::uint32_t from : result_.tets[t])
+          if (std::isnan(result_.w[to]) && !std::isnan(result_.w[from]))
+            mean[to] = {mean[to][0] + 1, mean[to][1] + result_.w[from]};
+    for (std::uint32_t c = 0; c < mean.size(); ++c)
+      if (std::isnan(result_.w[c])) result_.w[c] = mean[c][0] > 0 ? mean[c][1] / mean[c][0] : 0;
+  }
+
   std::uint32_t copy_in(std::uint32_t copy, std::uint32_t unit) const {
     const LevelRange& range = ranges_[copy];
     return range.is_empty() ? first_[copy] : first_[copy] + range.level_in(unit) - range.low;
@@ -162,25 +180,38 @@ class FunctionSearch {
     at[k] = to;
   }
 
+  /// Away from level surfaces neighbours stay; there the tetrahedra without volume come between.
   void connect() {
-    std::vector<char> is_wall(4 * result_.tets.size(), 0);
-    for (std::uint32_t face = 0; face < tets_.facet_of.size(); ++face) is_wall[face] = tets_.has(face, SheetKind::fault);
-    result_.neighbour = face_partners(result_.tets, result_.point.size(), is_wall);
+    result_.neighbour.assign(4 * result_.tets.size(), no_index);
+    std::vector<std::uint32_t> near;  // tetrahedra with a face on a level surface, and those between
+    for (std::uint32_t t = 0; t < result_.tets.size(); ++t) {
+      bool is_near = t >= result_.model_tets;
+      for (std::uint32_t face = 4 * t; face < 4 * t + 4 && t < result_.model_tets; ++face) {
+        if (is_on_level(face)) is_near = true;
+        if (tets_.facet_of[face] == no_index) result_.neighbour[face] = tets_.neighbour[face];
+      }
+      if (is_near) near.push_back(t);
+    }
+    std::vector<Tet> corners;
+    std::vector<char> is_closed;
+    for (const std::uint32_t t : near) {
+      corners.push_back(result_.tets[t]);
+      for (std::uint32_t face = 4 * t; face < 4 * t + 4; ++face)
+        is_closed.push_back(t < result_.model_tets && !is_on_level(face));
+    }
+    const std::vector<std::uint32_t> partner = face_partners(corners, result_.point.size(), is_closed);
+    for (std::uint32_t i = 0; i < partner.size(); ++i)
+      if (partner[i] != no_index) result_.neighbour[4 * near[i / 4] + i % 4] = 4 * near[partner[i] / 4] + partner[i] % 4;
+  }
+
+  bool is_on_level(std::uint32_t face) const {
+    if (tets_.facet_of[face] == no_index) return false;
+    const SheetKind kind = tets_.facets[tets_.facet_of[face]].kind;
+    return kind != SheetKind::fault && kind != SheetKind::side;
   }
 
   Result<void> solve() {
-    using Edge = std::array<std::uint32_t, 2>;
-    std::vector<Edge> edges;
-    edges.reserve(6 * result_.model_tets);
-    for (std::uint32_t t = 0; t < result_.model_tets; ++t)
-      for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = i + 1; j < 4; ++j) {
-          const std::uint32_t a = result_.tets[t][i], b = result_.tets[t][j];
-          if (is_free_[a] || is_free_[b]) edges.push_back({std::min(a, b), std::max(a, b)});
-        }
-    sort_total_order(edges, std::less<Edge>());  // equal ones are the same
-    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
-    if (const Result<void> bounded = check_compartments(edges); !bounded) return bounded;
+    if (const Result<void> bounded = check_compartments(); !bounded) return bounded;
     std::vector<std::uint32_t> unknown(result_.point.size(), no_index);
     std::uint32_t count = 0;
     for (std::uint32_t c = 0; c < unknown.size(); ++c)
@@ -208,17 +239,28 @@ class FunctionSearch {
             matrix.push_back({row, column, value});
         }
     }
-    const auto solved = solve_symmetric(count, matrix, {right});
+    std::vector<double> start;
+    for (std::uint32_t c = 0; c < unknown.size(); ++c)
+      if (is_free_[c]) start.push_back(result_.w[c]);
+    const auto solved = solve_symmetric(count, matrix, {right}, {std::move(start)});
     if (!solved) return solved.failure();
     const std::vector<double>& w = solved->front();
     for (std::uint32_t c = 0; c < unknown.size(); ++c)
       if (is_free_[c]) result_.w[c] = w[unknown[c]];
-    lead_back(edges);
+    lead_back();
     return {};
   }
 
+  /// Calls visit(a, b) for each edge of the model's tetrahedra, once per tetrahedron.
+  template <class Visit>
+  void visit_edges(Visit&& visit) const {
+    for (std::uint32_t t = 0; t < result_.model_tets; ++t)
+      for (std::size_t i = 0; i < 4; ++i)
+        for (std::size_t j = i + 1; j < 4; ++j) visit(result_.tets[t][i], result_.tets[t][j]);
+  }
+
   /// Copies outside their unit get the mean of their neighbours.
-  void lead_back(const std::vector<std::array<std::uint32_t, 2>>& edges) {
+  void lead_back() {
     constexpr int sweeps = 30;
     std::vector<std::uint32_t> unit(result_.point.size(), 0);
     for (std::uint32_t t = 0; t < result_.model_tets; ++t)
@@ -227,6 +269,12 @@ class FunctionSearch {
     for (std::uint32_t c = 0; c < is_outside.size(); ++c)
       is_outside[c] = is_free_[c] && !(result_.w[c] > result_.level_w[unit[c]] && result_.w[c] < result_.level_w[unit[c] + 1]);
     if (std::count(is_outside.begin(), is_outside.end(), 1) == 0) return;
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    visit_edges([&](std::uint32_t a, std::uint32_t b) {
+      if (is_outside[a] || is_outside[b]) edges.push_back({std::min(a, b), std::max(a, b)});
+    });
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     for (int sweep = 0; sweep < sweeps; ++sweep) {
       std::vector<std::array<double, 2>> mean(result_.point.size(), {0, 0});
       for (const auto& [a, b] : edges)
@@ -238,9 +286,11 @@ class FunctionSearch {
   }
 
   /// Everything must hang on some level.
-  Result<void> check_compartments(const std::vector<std::array<std::uint32_t, 2>>& edges) const {
+  Result<void> check_compartments() const {
     UnionFind pieces(result_.point.size());
-    for (const auto& [a, b] : edges) pieces.unite(a, b);
+    visit_edges([&](std::uint32_t a, std::uint32_t b) {
+      if (is_free_[a] || is_free_[b]) pieces.unite(a, b);
+    });
     std::vector<char> has_level(result_.point.size(), 0);
     for (std::uint32_t c = 0; c < has_level.size(); ++c)
       if (!is_free_[c]) has_level[pieces.find(c)] = 1;
@@ -268,12 +318,12 @@ class FunctionSearch {
 }  // namespace
 
 Result<StratigraphicTets> find_stratigraphic_function(const LabelledTets& tets, const StratigraphicLevels& levels,
-                                                      const LayerOptions& options) {
+                                                      const LayerOptions& options, const StratigraphicTets* near) {
   if (tets.tets.size() > (std::size_t{1} << 28))
     return Failure{FailureCode::geometry_failed, "too many tetrahedra for layers", "coarsen the model"};
   Result<LayerPlan> plan = plan_layers(tets, levels, options);
   if (!plan) return plan.failure();
-  return FunctionSearch(tets, levels).find(std::move(*plan));
+  return FunctionSearch(tets, levels).find(std::move(*plan), near);
 }
 
 std::vector<std::uint32_t> flipped_in_layers(const StratigraphicTets& tets, const std::vector<Vec3>& plan) {

@@ -57,10 +57,11 @@ struct StratigraphicTets {
 /// horizon on both sides of every fault. The weights are those of linear elements (cotangents), so that W is linear
 /// between parallel horizons however flat a tetrahedron is; where they
 /// let W leave its unit, the mean of the neighbours takes its place. One solve. `tets` should have gone through
-/// split_level_chords. Fails with: invalid_options; unsupported (a compartment without level, named by its region);
+/// split_level_chords. `near`: what was found before tetrahedra were split, to start from. Fails with: invalid_options; unsupported (a compartment without level, named by its region);
 /// geometry_failed (more than 2³⁰ tetrahedra).
 Result<StratigraphicTets> find_stratigraphic_function(const LabelledTets& tets, const StratigraphicLevels& levels,
-                                                      const LayerOptions& options = {});
+                                                      const LayerOptions& options = {},
+                                                      const StratigraphicTets* near = nullptr);
 
 /// The tetrahedra that are not positive in (U, V, W), or so flat there that rounding decides, where `plan` holds (u, v)
 /// per point of the model (R9); ascending.

@@ -22,6 +22,7 @@ class WallTracer {
       if (wall.tets[1] != no_index) d = 0.5 * (d + gravity[wall.tets[1]]);
       directions_.push_back(d);
       rates_.push_back(rates_in(wall, d));
+      plumb_rates_.push_back(rates_in(wall, {0, 0, -1}));
     }
   }
 
@@ -45,7 +46,7 @@ class WallTracer {
             }
           for (const std::uint32_t sheet : around) {
             if (is_low(point, sheet)) continue;
-            const auto one = follow(point, sheet);
+            const auto one = follow_off_corners(point, sheet);
             result.stuck += one ? 0 : 1;
             if (one && result.constraint) ++result.conflicts;
             if (one && !result.constraint) result.constraint = one;
@@ -151,7 +152,19 @@ class WallTracer {
     return sum / count;
   }
 
-  std::optional<UprightConstraint> follow(std::uint32_t start, std::uint32_t sheet) const {
+  /// Down the field, or straight down where the field leads into a line that sheets share: what stood beside that line
+  /// would fall into it.
+  std::optional<UprightConstraint> follow_off_corners(std::uint32_t start, std::uint32_t sheet) const {
+    bool is_in_corner = false;
+    const auto one = follow(start, sheet, rates_, is_in_corner);
+    if (!is_in_corner) return one;
+    is_in_corner = false;
+    const auto plumb = follow(start, sheet, plumb_rates_, is_in_corner);
+    return plumb && !is_in_corner ? plumb : one;
+  }
+
+  std::optional<UprightConstraint> follow(std::uint32_t start, std::uint32_t sheet, const std::vector<Rates>& rates,
+                                          bool& is_in_corner) const {
     std::uint32_t at = start, edge = no_index, from = no_index;  // at a point, or on an edge coming out of a triangle
     double weight = 0;                                            // on an edge: of its first point
     const std::size_t most_steps = 3 * sheets_.walls.size() + 10;
@@ -165,11 +178,12 @@ class WallTracer {
         }
         const std::uint32_t wall = sheets_.across(from, edge);
         if (wall == no_index && !is_upright_line(edge)) return UprightConstraint{start, ends[0], ends[1], weight, sheet};
-        if (wall != no_index && rates_[wall][opposite(wall, edge)] > snap * size_of(wall)) {
-          cross_wall(wall, edge, weight);
+        if (wall != no_index && rates[wall][opposite(wall, edge)] > snap * size_of(wall)) {
+          cross_wall(wall, rates[wall], edge, weight);
           from = wall;
           continue;
         }
+        is_in_corner = is_in_corner || wall == no_index;
         at = height(ends[0]) < height(ends[1]) ? ends[0] : ends[1];  // both sides push onto the edge, or it is a corner
         edge = no_index;
         continue;
@@ -179,13 +193,14 @@ class WallTracer {
         if (const std::vector<std::uint32_t> around = sheets_.sheets_at(at); around.size() > 1)
           if (const std::uint32_t below = next_on_shared_line(at, around); below != no_index) {
             at = below;
+            is_in_corner = true;
             continue;
           }
       bool is_inside = false;
       for (const std::uint32_t wall : sheets_.point_walls[at]) {
         if (sheets_.walls[wall].sheet != sheet) continue;
         const std::uint32_t k = corner_of(sheets_.walls[wall], at), l = (k + 1) % 3, m = (k + 2) % 3;
-        const Rates& rate = rates_[wall];
+        const Rates& rate = rates[wall];
         if (!(rate[l] >= 0 && rate[m] >= 0 && rate[l] + rate[m] > 0)) continue;
         edge = sheets_.walls[wall].edges[l];
         const double of_l = rate[l] / (rate[l] + rate[m]);
@@ -210,14 +225,13 @@ class WallTracer {
   }
 
   /// From a point on an edge through a triangle that the field enters there, to the edge it leaves by.
-  void cross_wall(std::uint32_t wall, std::uint32_t& edge, double& weight) const {
+  void cross_wall(std::uint32_t wall, const Rates& rate, std::uint32_t& edge, double& weight) const {
     const WallSheets::Wall& w = sheets_.walls[wall];
     const std::uint32_t c = opposite(wall, edge), a = (c + 1) % 3, b = (c + 2) % 3;
     const bool is_along = sheets_.edges[edge].points[0] == w.vertices[a];
     std::array<double, 3> at{};
     at[a] = is_along ? weight : 1 - weight;
     at[b] = 1 - at[a];
-    const Rates& rate = rates_[wall];
     // The corner whose weight is used up first is the one opposite to the edge left by.
     const double time_a = rate[a] < 0 ? at[a] / -rate[a] : -1, time_b = rate[b] < 0 ? at[b] / -rate[b] : -1;
     const std::uint32_t gone = time_b < 0 || (time_a >= 0 && time_a <= time_b) ? a : b;
@@ -232,7 +246,7 @@ class WallTracer {
   const LabelledTets& tets_;
   const WallSheets& sheets_;
   std::vector<Vec3> directions_;                         // per wall
-  std::vector<Rates> rates_;                             // per wall
+  std::vector<Rates> rates_, plumb_rates_;               // per wall: along the field, straight down
   std::vector<std::vector<std::uint32_t>> low_sheets_;  // per point: sheets whose lower edges it is on
 };
 

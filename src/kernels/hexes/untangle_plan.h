@@ -1,5 +1,5 @@
 #pragma once
-#include "kernels/adapters/sparse/symmetric_system.h"
+#include "kernels/hexes/multigrid.h"
 #include "kernels/hexes/upright_system.h"
 
 namespace strataflow {
@@ -12,11 +12,10 @@ struct UntangledPlan {
 };
 
 /// Foldover-free optimisation (coudert2024 S44): from (u, v), which may turn tetrahedra over, to a plan that turns none
-/// over and distorts little. `stiffness` is the matrix of the linear deformation (lower triangle), which guides the
-/// steps where it can be factorised. Stops as soon as nothing is turned over and the energy falls slowly, or after
+/// over and distorts little. `guide` stands for the matrix of the linear deformation. Stops as soon as nothing is turned over and the energy falls slowly, or after
 /// `most_steps`. The same bits on every schedule.
 UntangledPlan untangle_plan(const LabelledTets& tets, const UprightSystem& system,
-                            const std::vector<TetGradients>& gradients, const std::vector<MatrixEntry>& stiffness,
-                            std::vector<double> u, std::vector<double> v, std::size_t most_steps);
+                            const std::vector<TetGradients>& gradients, const Multigrid& guide, std::vector<double> u,
+                            std::vector<double> v, std::size_t most_steps);
 
 }  // namespace strataflow

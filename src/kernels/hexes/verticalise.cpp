@@ -131,9 +131,19 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
   pinned.push_back({0, 0, scale});
   linear.right[0][0] = scale * pin.x;
   linear.right[1][0] = scale * pin.y;
-  const auto solved = solve_symmetric(system.unknown_count, pinned, {linear.right[0], linear.right[1]});
-  if (!solved) return solved.failure();
-  std::vector<double> u = (*solved)[0], v = (*solved)[1];
+  linear.matrix = {};
+  const Multigrid guide(symmetric_rows(system.unknown_count, pinned), constant_mode(system.unknown_count));
+  pinned = {};
+  std::vector<double> u, v;
+  for (const std::uint32_t p : system.point_of) {
+    u.push_back(tets.points[p].x);
+    v.push_back(tets.points[p].y);
+  }
+  constexpr std::size_t most_solving = 2000;
+  if (conjugate_gradients(guide, linear.right[0], u, 1e-11, most_solving) == most_solving ||
+      conjugate_gradients(guide, linear.right[1], v, 1e-11, most_solving) == most_solving)
+    return Failure{FailureCode::geometry_failed, "faults that stand upright leave parts of the plan without a place",
+                   "drop an alignment with drop_alignment"};
   const auto place = [&] {
     const std::vector<double> all_u = system.expanded(u), all_v = system.expanded(v);
     for (std::size_t p = 0; p < upright.plan.size(); ++p) upright.plan[p] = {all_u[p], all_v[p], 0};
@@ -142,7 +152,7 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
   std::vector<std::uint32_t> over = turned_over(tets, upright.plan);
   upright.flipped_by_linear = static_cast<std::uint32_t>(over.size());
   if (!over.empty()) {
-    UntangledPlan untangled = untangle_plan(tets, system, gradients, pinned, std::move(u), std::move(v),
+    UntangledPlan untangled = untangle_plan(tets, system, gradients, guide, std::move(u), std::move(v),
                                             static_cast<std::size_t>(options.untangling_steps));
     u = std::move(untangled.u);
     v = std::move(untangled.v);

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
+#include <span>
+#include <variant>
+#include <variant>
 
 #include "graph/parallel/parallel_map.h"
 #include "kernels/volumes/fill_regions.h"
@@ -18,6 +22,18 @@ struct Cavity {
   RegionBoundary boundary;  ///< triangles: of the model, no_index for the envelope of the zone
   double volume_m3 = 0;
 };
+
+/// Between the facets, m³: sides say which way they look.
+double volume_inside(const RegionBoundary& boundary) {
+  double six_volumes = 0;
+  for (std::size_t f = 0; f < boundary.facets.size(); ++f) {
+    const Vec3& origin = boundary.coordinates.front();
+    const auto corner = [&](std::size_t k) { return boundary.coordinates[boundary.facets[f][k]] - origin; };
+    const double cone = dot(corner(0), cross(corner(1), corner(2)));
+    six_volumes += ((boundary.sides[f] & 1) - (boundary.sides[f] >> 1)) * cone;
+  }
+  return six_volumes / 6;
+}
 
 Cavity cavity_beside(const StructuralModel& model, std::uint32_t region, const ThinZone& zone) {
   std::vector<std::uint8_t> covered(model.triangles.size(), 0);
@@ -49,17 +65,11 @@ Cavity cavity_beside(const StructuralModel& model, std::uint32_t region, const T
   const std::size_t own = model.points.size();
   for (const std::uint32_t p : boundary.points)
     boundary.coordinates.push_back(p < own ? model.points[p] : zone.points[p - own]);
-  double six_volumes = 0;
-  for (std::size_t f = 0; f < boundary.facets.size(); ++f) {
-    for (std::uint32_t& vertex : boundary.facets[f])
+  for (Triangle& facet : boundary.facets)
+    for (std::uint32_t& vertex : facet)
       vertex = static_cast<std::uint32_t>(std::lower_bound(boundary.points.begin(), boundary.points.end(), vertex) -
                                           boundary.points.begin());
-    const Vec3& origin = boundary.coordinates.front();
-    const auto corner = [&](std::size_t k) { return boundary.coordinates[boundary.facets[f][k]] - origin; };
-    const double cone = dot(corner(0), cross(corner(1), corner(2)));
-    six_volumes += ((boundary.sides[f] & 1) - (boundary.sides[f] >> 1)) * cone;
-  }
-  cavity.volume_m3 = six_volumes / 6;
+  cavity.volume_m3 = volume_inside(boundary);
   return cavity;
 }
 
@@ -68,11 +78,66 @@ struct Filled {
   ThinZone zone;
   Cavity cavity;
   RegionMesh tets;
-  FacingCounts facing;
+  CellImprovement improvement;
   std::optional<Failure> failure;
   std::string refusal;         ///< why no tetrahedra fit: the surfaces would have to be split
   std::string prisms_refused;  ///< the same, around prisms
 };
+
+/// Makes the worst cells of a region better: its tetrahedra, and with them the points at which the zone passes from
+/// quadrilaterals to triangles. What cannot be verified afterwards is left as it was.
+void improve(const StructuralModel& model, Filled& filled) {
+  const RegionBoundary& boundary = filled.cavity.boundary;
+  const auto own = static_cast<std::uint32_t>(model.points.size());
+  const auto may_move = [&](std::uint32_t p) { return p >= own + filled.zone.layer_points; };
+  // Numbers: points of the cavity, those inside it, and beyond both the corners of cells beside a point that may move.
+  ImprovableCells cells;
+  cells.points = boundary.coordinates;
+  for (const std::uint32_t p : boundary.points) cells.is_free.push_back(may_move(p));
+  cells.points.insert(cells.points.end(), filled.tets.interior_points.begin(), filled.tets.interior_points.end());
+  cells.is_free.resize(cells.points.size(), 1);
+  cells.tets = filled.tets.tets;
+  cells.facets = boundary.facets;
+  std::vector<std::uint32_t> beyond;
+  const auto place_in = [](const std::vector<std::uint32_t>& list, std::uint32_t p) {
+    const auto found = std::lower_bound(list.begin(), list.end(), p);
+    return found != list.end() && *found == p ? static_cast<std::uint32_t>(found - list.begin()) : no_index;
+  };
+  for (const ThinCell& cell : filled.zone.cells) {
+    const auto corners = std::span(cell.vertices).first(static_cast<std::size_t>(vertex_count(cell.type)));
+    if (std::none_of(corners.begin(), corners.end(), may_move)) continue;
+    cells.kept.push_back(cell);
+    for (const std::uint32_t p : corners)
+      if (place_in(boundary.points, p) == no_index) beyond.push_back(p);
+  }
+  std::sort(beyond.begin(), beyond.end());
+  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+  const auto first_beyond = static_cast<std::uint32_t>(cells.points.size());
+  for (const std::uint32_t p : beyond) {
+    cells.points.push_back(p < own ? model.points[p] : filled.zone.points[p - own]);
+    cells.is_free.push_back(may_move(p));
+  }
+  for (ThinCell& cell : cells.kept)
+    for (int k = 0; k < vertex_count(cell.type); ++k) {
+      const std::uint32_t p = cell.vertices[k], place = place_in(boundary.points, p);
+      cell.vertices[k] = place != no_index ? place : first_beyond + place_in(beyond, p);
+    }
+  const CellImprovement improvement = improve_cells(cells);
+
+  Cavity cavity = filled.cavity;
+  std::copy_n(cells.points.begin(), cavity.boundary.points.size(), cavity.boundary.coordinates.begin());
+  cavity.volume_m3 = volume_inside(cavity.boundary);
+  auto verdict = verified_region_mesh(cavity.boundary, cells.points, cells.tets, cavity.volume_m3);
+  if (std::holds_alternative<Rejection>(verdict)) return;
+  filled.tets = std::move(std::get<RegionMesh>(verdict));
+  filled.cavity = std::move(cavity);
+  filled.improvement = improvement;
+  const auto put_back = [&](std::uint32_t p, const Vec3& at) {
+    if (may_move(p)) filled.zone.points[p - own] = at;
+  };
+  for (std::size_t i = 0; i < boundary.points.size(); ++i) put_back(boundary.points[i], boundary.coordinates[i]);
+  for (std::size_t i = 0; i < beyond.size(); ++i) put_back(beyond[i], cells.points[first_beyond + i]);
+}
 
 Filled fill_region(const StructuralModel& model, std::uint32_t region, std::span<const FacingPair> pairs,
                    const FillHybridOptions& options, const CancellationToken* cancellation,
@@ -102,6 +167,7 @@ Filled fill_region(const StructuralModel& model, std::uint32_t region, std::span
     if (tets->mesh) {
       filled.tets = std::move(*tets->mesh);
       filled.refusal.clear();
+      improve(model, filled);
       return filled;
     }
     filled.refusal = "region '" + name + "' (" + std::to_string(region) + ")";
@@ -131,6 +197,14 @@ void add(DroppedPairs& sum, const DroppedPairs& part) {
   sum.unfilled += part.unfilled;
 }
 
+void add(CellImprovement& sum, const CellImprovement& part) {
+  sum.exchanges += part.exchanges;
+  sum.moves += part.moves;
+  sum.added_points += part.added_points;
+  sum.smallest_before = std::min(sum.smallest_before, part.smallest_before);
+  sum.smallest_after = std::min(sum.smallest_after, part.smallest_after);
+}
+
 /// Region by region: points, cells, and per triangle of the model the cells beside it.
 HybridMesh assembled(const StructuralModel& model, const std::vector<Filled>& regions) {
   HybridMesh hybrid;
@@ -152,6 +226,7 @@ HybridMesh assembled(const StructuralModel& model, const std::vector<Filled>& re
     const Filled& filled = regions[r];
     HybridRegion& counted = report.regions.emplace_back();
     add(report.dropped, filled.zone.dropped);
+    add(report.improvement, filled.improvement);
     const auto own_points = static_cast<std::uint32_t>(model.points.size());
     const auto first_point = static_cast<std::uint32_t>(mesh.points.size());
     auto first_cell = static_cast<std::uint32_t>(mesh.cell_count());

@@ -6,6 +6,7 @@
 
 #include "base/cancellation.h"
 #include "base/result.h"
+#include "kernels/hybrid/improve_cells.h"
 #include "kernels/hybrid/thin_zone.h"
 #include "kernels/volumes/tetrahedralize_model.h"
 #include "model/structural_model.h"
@@ -32,11 +33,13 @@ struct HybridReport {
   std::uint64_t surface_points = 0, layer_points = 0, centre_points = 0, apex_points = 0, fill_points = 0;
   /// Of prisms, base edge to height.
   double min_anisotropy_ratio = 0, mean_anisotropy_ratio = 0, max_anisotropy_ratio = 0;
+  CellImprovement improvement;        ///< of all regions; its added points are fill points
   std::vector<HybridRegion> regions;  ///< as in the model
   template <class A>
   void archive(A& a) {
     a(cells_from_voronoi, cells_from_fill, facing, dropped, surface_points, layer_points, centre_points, apex_points,
-      fill_points, min_anisotropy_ratio, mean_anisotropy_ratio, max_anisotropy_ratio, regions);
+      fill_points, min_anisotropy_ratio, mean_anisotropy_ratio, max_anisotropy_ratio, improvement,
+      regions);
   }
 };
 
@@ -55,8 +58,8 @@ struct FillHybridOptions {
 };
 
 /// Fills every region of `model` with prisms, pyramids and tetrahedra between triangles that face each other with the
-/// same sites, and what is left with tetrahedra that keep all surfaces; every step verified (pellerin2014 §2.11, §5
-/// (ii)). Where a region cannot be filled around its prisms it is filled without, which is counted. Points: the
+/// same sites, and what is left with tetrahedra that keep all surfaces, the worst of which are made better
+/// (improve_cells); every step verified (pellerin2014 §2.11, §5 (ii)). Where a region cannot be filled around its prisms it is filled without, which is counted. Points: the
 /// model's first; then region by region those of layers, of middles, of the fill. Cells region by region.
 /// `point_site`: per point of the model, no_index for none.
 /// Fails as tetrahedralize_model.

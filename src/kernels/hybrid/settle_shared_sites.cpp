@@ -89,11 +89,13 @@ Result<OptimisedSites> settle_shared_sites(const StructuralModel& model, const C
                                            const SharedSites& shared, const SettleOptions& options) {
   OptimisedSites settled;
   settled.sites = shared.sites;
+  std::vector<char> fixed = shared.is_pinned;
+  if (!fixed.empty()) fixed.resize(shared.sites.size(), 0);
   for (std::size_t round = 0; round < std::max<std::size_t>(options.rounds, 1); ++round) {
     Result<std::vector<SheetHold>> holds = find_sheet_holds(model, settled.sites, shared.stacks);
     if (!holds) return holds.failure();
     HeldEnergy energy(domain, std::move(*holds));
-    OptimisedSites next = optimise_sites(energy, std::move(settled.sites), {}, options.optimise);
+    OptimisedSites next = optimise_sites(energy, std::move(settled.sites), fixed, options.optimise);
     next.evaluations += settled.evaluations;
     next.replanted_sites += settled.replanted_sites;
     next.lloyd_steps.insert(next.lloyd_steps.begin(), settled.lloyd_steps.begin(), settled.lloyd_steps.end());

@@ -45,7 +45,8 @@ struct SettleOptions {
   OptimiseSitesOptions optimise{.lloyd_iterations = 4, .iterations = 25, .line_attraction = {}};
 };
 
-/// Optimises sites (pellerin2014 §2.4, 2.5) such that those common to several sheets stay in their middle.
+/// Optimises sites (pellerin2014 §2.4, 2.5) such that those common to several sheets stay in their middle; pinned ones
+/// stay where they are.
 Result<OptimisedSites> settle_shared_sites(const StructuralModel& model, const CvtDomain& domain,
                                            const SharedSites& shared, const SettleOptions& options = {});
 

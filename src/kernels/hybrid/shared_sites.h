@@ -22,6 +22,7 @@ struct SharedSites {
   std::vector<std::vector<std::uint32_t>>
       stacks;                       ///< per site: the surfaces of its sheets, ascending; empty for one sheet
   std::uint64_t across_layers = 0;  ///< sites that stand for two sheets and more
+  std::vector<char> is_pinned;      ///< per site: it stays where it is; those beyond the end move
 };
 
 /// Draws `count` points on all surfaces (sample_sites), looks from each along the normal of its triangle, both ways,

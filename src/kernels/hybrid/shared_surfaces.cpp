@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "base/id.h"
@@ -29,6 +30,7 @@ struct Attempt {
   std::string flaw;                      ///< empty: valid
   std::vector<std::uint32_t> bad_sites;  ///< in whose cells triangles cross; ascending
   std::vector<Vec3> wanted_sites;        ///< on what was not kept
+  std::vector<std::uint32_t> flat_sites;  ///< of triangles with hardly any area, as between points of a straight line
 };
 
 /// Where more sites would tell an element that is not as it was from its neighbours: on the corner, half-way along each
@@ -105,6 +107,14 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
     for (const BallFailure& failure : failures)
       if (is_bad(failure.check)) made.bad_sites.push_back(failure.site);
   made.bad_sites = sorted_unique(std::move(made.bad_sites));
+  constexpr double least_height_ratio = 2e-3;  // to the longest edge
+  for (const Triangle& t : dual.soup.triangles) {
+    const Vec3 ab = dual.soup.points[t[1]] - dual.soup.points[t[0]], ac = dual.soup.points[t[2]] - dual.soup.points[t[0]];
+    const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
+    if (!(length(cross(ab, ac)) < least_height_ratio * longest)) continue;
+    for (const std::uint32_t point : t) made.flat_sites.push_back(dual.points[point].site);
+  }
+  made.flat_sites = sorted_unique(std::move(made.flat_sites));
   made.surfaces.ball_failures = failures.size();
   made.surfaces.built = std::move(*built);
   made.surfaces.soup = std::move(dual.soup);
@@ -139,6 +149,8 @@ void add_sites(const RestrictedDiagram& diagram, const std::vector<std::uint32_t
     shared.sites.push_back(site);
     shared.stacks.emplace_back();
     shared.is_on_box.push_back(0);
+    shared.is_pinned.resize(shared.sites.size(), 0);
+    shared.is_pinned.back() = 1;  // else its neighbours push it off what it was added for
   }
 }
 
@@ -153,6 +165,9 @@ Result<SharedSurfaces> remesh_on_shared_sites(const StructuralModel& model, Shar
   const auto is_cancelled = [&] {
     return options.settle.optimise.is_cancelled && options.settle.optimise.is_cancelled();
   };
+  constexpr std::int64_t most_flat_rounds = 3;
+  std::int64_t flat_rounds = 0;
+  std::optional<SharedSurfaces> valid;  // the last that was
   for (std::int64_t round = 0;; ++round) {
     SettleOptions settle = options.settle;
     if (round > 0) settle.rounds = 1;  // the others lie well already
@@ -168,15 +183,22 @@ Result<SharedSurfaces> remesh_on_shared_sites(const StructuralModel& model, Shar
     if (made->flaw.empty()) {
       made->surfaces.sites = shared.sites.size();
       made->surfaces.added_sites = shared.sites.size() - asked;
-      return std::move(made->surfaces);
+      // Flat triangles are valid, and leave no room for good cells: worth a few rounds.
+      if (made->flat_sites.empty() || flat_rounds++ == most_flat_rounds) return std::move(made->surfaces);
+      valid = std::move(made->surfaces);
+      made->bad_sites = std::move(made->flat_sites);
+    } else if (valid && flat_rounds++ == most_flat_rounds) {
+      return std::move(*valid);
     }
     const std::size_t before = shared.sites.size();
-    if (round < options.rounds) add_sites(diagram, made->bad_sites, std::move(made->wanted_sites), shared);
-    if (shared.sites.size() == before)
-      return Failure{FailureCode::geometry_failed,
-                     "after " + std::to_string(round) +
-                         " rounds of adding sites the dual on common sites is still not valid: " + made->flaw,
-                     "ask for more sites"};
+    if (valid ? flat_rounds <= most_flat_rounds : round < options.rounds)
+      add_sites(diagram, made->bad_sites, std::move(made->wanted_sites), shared);
+    if (shared.sites.size() > before) continue;
+    if (valid) return std::move(*valid);
+    return Failure{FailureCode::geometry_failed,
+                   "after " + std::to_string(round) +
+                       " rounds of adding sites the dual on common sites is still not valid: " + made->flaw,
+                   "ask for more sites"};
   }
 }
 

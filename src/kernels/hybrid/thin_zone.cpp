@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -75,6 +76,7 @@ class ZoneBuilder {
       if (surface.region_minus != region && surface.region_plus != region) continue;
       for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) {
         faces_.push_back({sorted(model.triangles[t]), t});
+        for (const std::uint32_t corner : model.triangles[t]) corners_.push_back({corner, t});
         for (std::size_t k = 0; k < 3; ++k) {
           const std::uint32_t a = model.triangles[t][k], b = model.triangles[t][(k + 1) % 3];
           surface_edges_.push_back({std::min(a, b), std::max(a, b)});
@@ -83,6 +85,7 @@ class ZoneBuilder {
     }
     std::sort(faces_.begin(), faces_.end());
     std::sort(surface_edges_.begin(), surface_edges_.end());
+    std::sort(corners_.begin(), corners_.end());
   }
 
   ThinZone build() {
@@ -116,6 +119,9 @@ class ZoneBuilder {
   std::uint32_t surface_face(const Triangle& vertices) const {
     const auto found = std::lower_bound(faces_.begin(), faces_.end(), SurfaceFace{sorted(vertices), 0});
     return found != faces_.end() && found->vertices == sorted(vertices) ? found->triangle : no_index;
+  }
+  bool is_on_surface(const Link& edge) const {
+    return std::binary_search(surface_edges_.begin(), surface_edges_.end(), edge);
   }
   bool looks_outside(std::uint32_t triangle) const {
     const Surface& surface = model_.surfaces[model_.triangle_surface[triangle]];
@@ -215,8 +221,7 @@ class ZoneBuilder {
     std::sort(keys.begin(), keys.end());
     is_layered_.assign(links_.size(), layers_ > 1);
     for (std::uint32_t l = 0; l < links_.size(); ++l)
-      if (links_[l].is_point() || std::binary_search(surface_edges_.begin(), surface_edges_.end(), links_[l]))
-        is_layered_[l] = 0;
+      if (links_[l].is_point() || is_on_surface(links_[l])) is_layered_[l] = 0;
     for (std::size_t begin = 0, end = 0; begin < keys.size(); begin = end) {
       while (end < keys.size() && keys[end].first == keys[begin].first && keys[end].second == keys[begin].second) ++end;
       for (std::size_t i = begin + 2; i < end; ++i) drop(keys[i].pair, zone_.dropped.nonconforming);
@@ -555,6 +560,31 @@ class ZoneBuilder {
     }
     for (std::size_t i = 0; i < zone_.envelope.size(); ++i)
       if (is_degenerate(all_points_, zone_.envelope[i])) refuse_cell(envelope_cell[i], zone_.dropped.crossing);
+    if (!is_changed_) refuse_edges_on_surfaces(envelope_cell);
+  }
+
+  /// Refuses cells with an edge inside the region that lies on a surface from one of its ends on, as between points of
+  /// two traces on a plane fault with other triangles: it crosses nothing, but only flat tetrahedra fit between.
+  void refuse_edges_on_surfaces(const std::vector<std::uint32_t>& envelope_cell) {
+    constexpr double sine_1_deg = 0.017452406437283512;
+    for (std::size_t i = 0; i < zone_.envelope.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (const bool turned : {false, true}) {
+          std::uint32_t a = zone_.envelope[i][k], b = zone_.envelope[i][(k + 1) % 3];
+          if (turned) std::swap(a, b);
+          if (a >= model_.points.size() || is_on_surface({std::min(a, b), std::max(a, b)})) continue;
+          const Vec3 along = all_points_[b] - all_points_[a];
+          const auto begin = std::lower_bound(corners_.begin(), corners_.end(), std::array{a, 0u});
+          for (auto corner = begin; corner != corners_.end() && (*corner)[0] == a; ++corner) {
+            Triangle t = model_.triangles[(*corner)[1]];
+            std::rotate(t.begin(), std::find(t.begin(), t.end(), a), t.end());
+            const Vec3 u = model_.points[t[1]] - model_.points[a], v = model_.points[t[2]] - model_.points[a];
+            const Vec3 normal = cross(u, v);
+            if (std::abs(dot(along, normal)) < sine_1_deg * length(along) * length(normal) &&
+                dot(cross(u, along), normal) >= 0 && dot(cross(along, v), normal) >= 0)
+              refuse_cell(envelope_cell[i], zone_.dropped.crossing);
+          }
+        }
   }
 
   void cover(const Triangle& outward, std::uint32_t triangle, std::uint32_t cell) {
@@ -589,6 +619,7 @@ class ZoneBuilder {
   std::uint32_t layers_;
   std::vector<SurfaceFace> faces_;
   std::vector<Link> surface_edges_;
+  std::vector<std::array<std::uint32_t, 2>> corners_;  ///< point and triangle around the region, ascending
   std::vector<char> is_alive_;
   std::vector<std::array<std::uint8_t, 3>> cap_tries_;        ///< per pair and side: caps that had no room
   std::vector<std::array<std::uint32_t, 3>> cap_refused_in_;  ///< the pass that last counted one

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "graph/parallel/parallel_map.h"
 #include "graph/parallel/sort_total_order.h"
@@ -13,7 +14,8 @@ namespace strataflow {
 namespace {
 
 constexpr std::size_t grain = 256;
-constexpr std::size_t batch = 512;  ///< triangles searched before the largest distance is shared
+constexpr std::size_t first_batch = 64;  ///< triangles searched before the largest distance is shared; then twice as many
+constexpr std::uint64_t first_limit = 32;  ///< samples in one triangle, at first; what they do not settle gets eightfold
 
 struct Sample {
   Vec3 point;
@@ -99,24 +101,24 @@ Split split_of(const Piece& piece, double enough_m, const NearestTriangle& other
   return split;
 }
 
-/// Searches one triangle for points farther than `beaten_m` by more than `error_m`.
+/// Searches one triangle for points farther than `beaten_m` by more than `error_m`, where they may lie farthest first:
+/// with few samples left the bound is then as low as they can make it.
 Found search(const Piece& whole, double beaten_m, double error_m, std::uint64_t most_samples,
              const NearestTriangle& other) {
   Found found{beaten_m, 0, {}, 0};
-  std::vector<Piece> stack{whole};
-  while (!stack.empty()) {
-    const Piece piece = stack.back();
-    stack.pop_back();
-    if (piece.bound_m <= found.distance_m + error_m || found.samples >= most_samples) {
-      found.bound_m = std::max(found.bound_m, piece.bound_m);
-      continue;
-    }
+  const auto is_lower = [](const Piece& a, const Piece& b) { return a.bound_m < b.bound_m; };
+  std::vector<Piece> heap{whole};
+  while (!heap.empty()) {
+    std::pop_heap(heap.begin(), heap.end(), is_lower);
+    const Piece piece = heap.back();
+    heap.pop_back();
     const Split split = split_of(piece, found.distance_m + 0.5 * error_m, other);
     const Sample &a = piece.corner[split.from], &b = piece.corner[split.to];
     const Vec3 middle = a.point + split.share * (b.point - a.point);
-    if (middle == a.point || middle == b.point) {  // no room between doubles
-      found.bound_m = std::max(found.bound_m, piece.bound_m);
-      continue;
+    const bool has_room = middle != a.point && middle != b.point;  // between doubles
+    if (piece.bound_m <= found.distance_m + error_m || found.samples >= most_samples || !has_room) {
+      found.bound_m = piece.bound_m;  // the others' are no higher
+      break;
     }
     const NearestTriangle::Hit hit = other.nearest(middle, a.nearest);
     const Sample sample{middle, std::sqrt(hit.squared_m2), hit.triangle};
@@ -131,15 +133,15 @@ Found search(const Piece& whole, double beaten_m, double error_m, std::uint64_t 
     for (Piece& half : halves) {
       half.bound_m = std::min(piece.bound_m, bound_of(half.corner, other));
       ++half.depth;
+      heap.push_back(half);
+      std::push_heap(heap.begin(), heap.end(), is_lower);
     }
-    if (halves[0].bound_m > halves[1].bound_m) std::swap(halves[0], halves[1]);
-    stack.insert(stack.end(), halves.begin(), halves.end());
   }
   return found;
 }
 
 DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other, double error_m,
-                          std::uint64_t most_samples, const std::function<bool()>& is_cancelled) {
+                          std::uint64_t budget, const std::function<bool()>& is_cancelled) {
   std::vector<char> is_used(mesh.points.size(), 0);  // only vertices of triangles count
   for (const Triangle& t : mesh.triangles)
     for (const std::uint32_t v : t) is_used[v] = 1;
@@ -180,29 +182,40 @@ DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other
         return Candidate{bound_of(corners(triangle), other), triangle};
       },
       grain);
-  sort_total_order(candidates, [](const Candidate& a, const Candidate& b) {
-    return a.bound_m != b.bound_m ? a.bound_m > b.bound_m : a.triangle < b.triangle;
-  });
-  for (std::size_t begin = 0; begin < candidates.size(); begin += batch) {
-    if (is_cancelled && is_cancelled()) break;  // who asked throws the result away
-    if (candidates[begin].bound_m <= result.distance_m + error_m) {
-      result.bound_m = std::max(result.bound_m, candidates[begin].bound_m);
-      break;
+  std::uint64_t spent = 0;
+  for (std::uint64_t limit = first_limit; !candidates.empty(); limit *= 8) {
+    sort_total_order(candidates, [](const Candidate& a, const Candidate& b) {
+      return a.bound_m != b.bound_m ? a.bound_m > b.bound_m : a.triangle < b.triangle;
+    });
+    for (std::size_t begin = 0, batch = first_batch; begin < candidates.size(); begin += batch, batch *= 2) {
+      if (spent >= budget || candidates[begin].bound_m <= result.distance_m + error_m) break;
+      if (is_cancelled && is_cancelled()) return result;  // who asked throws it away
+      // Neighbours one after the other: they look at the same part of the other mesh.
+      const std::span now(candidates.data() + begin, std::min(batch, candidates.size() - begin));
+      std::sort(now.begin(), now.end(), [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
+      const double beaten_m = result.distance_m;
+      const std::uint64_t each = std::min(limit, budget - spent);
+      const std::vector<Found> found = parallel_map(
+          now.size(),
+          [&](std::size_t i) {
+            return search({corners(now[i].triangle), now[i].bound_m}, beaten_m, error_m, each, other);
+          },
+          16);
+      for (std::size_t i = 0; i < now.size(); ++i) {
+        spent += found[i].samples;
+        now[i].bound_m = found[i].bound_m;
+        take(found[i].distance_m, found[i].at);
+      }
     }
-    const double beaten_m = result.distance_m;
-    const std::vector<Found> found = parallel_map(
-        std::min(batch, candidates.size() - begin),
-        [&](std::size_t i) {
-          const Candidate& candidate = candidates[begin + i];
-          return search({corners(candidate.triangle), candidate.bound_m}, beaten_m, error_m, most_samples, other);
-        },
-        8);
-    for (const Found& one : found) {
-      result.samples += one.samples;
-      result.bound_m = std::max(result.bound_m, one.bound_m);
-      take(one.distance_m, one.at);
-    }
+    if (spent >= budget) break;
+    std::erase_if(candidates, [&](const Candidate& settled) {
+      if (settled.bound_m > result.distance_m + error_m && limit < (std::uint64_t{1} << 40)) return false;
+      result.bound_m = std::max(result.bound_m, settled.bound_m);
+      return true;
+    });
   }
+  result.samples += spent;
+  for (const Candidate& open : candidates) result.bound_m = std::max(result.bound_m, open.bound_m);
   result.bound_m = std::max(result.bound_m, result.distance_m);
   return result;
 }
@@ -234,7 +247,7 @@ Result<HausdorffDistance> hausdorff_distance(const TriangleMesh& first, const Tr
   for (const Triangle& t : second.triangles)
     for (const std::uint32_t v : t) box.take(second.points[v]);
   const double error_m = options.error_ratio * box.diagonal_m();
-  const std::uint64_t most = options.samples_per_triangle.value_or(std::numeric_limits<std::uint64_t>::max());
+  const std::uint64_t most = options.samples.value_or(std::numeric_limits<std::uint64_t>::max());
   result.forward = directed(first, NearestTriangle(second), error_m, most, options.is_cancelled);
   result.backward = directed(second, NearestTriangle(first), error_m, most, options.is_cancelled);
   if (options.is_cancelled && options.is_cancelled())

@@ -14,9 +14,9 @@ namespace strataflow {
 
 struct HausdorffOptions {
   double error_ratio = 1e-4;  ///< largest error allowed, in the diagonal of the box around both meshes; > 0
-  /// At most so many samples in one triangle besides its corners: where that does not suffice the error is larger, and
-  /// `bound_m` says by how much. Absent: as many as the error takes.
-  std::optional<std::uint64_t> samples_per_triangle = std::nullopt;
+  /// About so many samples in each direction besides corners, spent where the mesh may lie farthest: where they do not
+  /// suffice the error is larger, and `bound_m` says by how much. Absent: as many as the error takes.
+  std::optional<std::uint64_t> samples = std::nullopt;
   std::function<bool()> is_cancelled = {};  ///< asked now and then
 };
 

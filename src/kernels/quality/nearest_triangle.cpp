@@ -72,4 +72,16 @@ NearestTriangle::Hit NearestTriangle::nearest(const Vec3& p, std::uint32_t guess
   return best;
 }
 
+bool NearestTriangle::is_within(const Vec3& p, double squared_m2, std::uint32_t& guess) const {
+  if (guess != no_index && this->squared_m2(p, guess) <= squared_m2) return true;
+  bool is_found = false;
+  tree_.visit_nearest(p, squared_m2, [&](std::uint32_t place) {
+    if (!(this->squared_m2(p, shapes_[place]) <= squared_m2)) return squared_m2;
+    is_found = true;
+    guess = tree_.item_at(place);
+    return -1.0;  // nothing is nearer than that
+  });
+  return is_found;
+}
+
 }  // namespace strataflow

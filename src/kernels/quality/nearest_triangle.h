@@ -27,6 +27,8 @@ class NearestTriangle {
 
   /// The nearest triangle, of equal ones the lowest. A good `guess` saves time and changes nothing else.
   Hit nearest(const Vec3& p, std::uint32_t guess = no_index) const;
+  /// Whether a triangle lies within √squared_m2 of p. `guess` is tried first and becomes the one that does.
+  bool is_within(const Vec3& p, double squared_m2, std::uint32_t& guess) const;
   /// Squared distance to one triangle.
   double squared_m2(const Vec3& p, std::uint32_t triangle) const;
 

@@ -104,16 +104,22 @@ std::vector<std::uint32_t> far_sites(const NearestTriangle& to_model, const Rest
                                      const DualSoup& dual, double wanted_m) {
   const double wanted = wanted_m * wanted_m;
   const NearestTriangle to_dual({dual.soup.points, dual.soup.triangles});
-  const auto far_pieces = parallel_map(diagram.piece_count(), [&](std::size_t i) {
-    for (const Vec3& corner : diagram.piece_points(i))
-      if (to_dual.nearest(corner).squared_m2 > wanted) return diagram.piece_site[i];
-    return no_index;
-  }, 256);
-  const auto far_triangles = parallel_map(dual.soup.triangles.size(), [&](std::size_t t) {
-    const auto& [a, b, c] = dual.soup.triangles[t];
-    const Vec3 middle = (1.0 / 3) * (dual.soup.points[a] + dual.soup.points[b] + dual.soup.points[c]);
-    return to_model.nearest(middle).squared_m2 > wanted ? dual.points[a].site : no_index;
-  }, 256);
+  std::vector<std::uint32_t> far_pieces(diagram.piece_count(), no_index);
+  std::vector<std::uint32_t> far_triangles(dual.soup.triangles.size(), no_index);
+  parallel_ranges(far_pieces.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t guess = no_index;  // corners come several times, and near one another
+    for (std::size_t i = begin; i < end; ++i)
+      for (const Vec3& corner : diagram.piece_points(i))
+        if (!to_dual.is_within(corner, wanted, guess)) far_pieces[i] = diagram.piece_site[i];
+  });
+  parallel_ranges(far_triangles.size(), 256, [&](std::size_t begin, std::size_t end) {
+    std::uint32_t guess = no_index;
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [a, b, c] = dual.soup.triangles[i];
+      const Vec3 middle = (1.0 / 3) * (dual.soup.points[a] + dual.soup.points[b] + dual.soup.points[c]);
+      if (!to_model.is_within(middle, wanted, guess)) far_triangles[i] = dual.points[a].site;
+    }
+  });
   std::vector<std::uint32_t> sites;
   for (const auto* found : {&far_pieces, &far_triangles})
     for (const std::uint32_t site : *found)

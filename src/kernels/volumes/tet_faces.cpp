@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/internal_error.h"
+#include "graph/parallel/parallel_map.h"
 
 namespace strataflow {
 
@@ -42,13 +43,15 @@ std::vector<FaceEntry> grouped_faces(const std::vector<Triangle>& facets, std::s
   std::vector<FaceEntry> faces(unsorted.size());
   std::vector<std::uint32_t> next = start;
   for (const FaceEntry& face : unsorted) faces[next[face.smallest]++] = face;
-  for (std::size_t p = 0; p < point_count; ++p)
-    std::sort(faces.begin() + start[p], faces.begin() + start[p + 1], [](const FaceEntry& a, const FaceEntry& b) {
-      if (a.middle != b.middle) return a.middle < b.middle;
-      if (a.largest != b.largest) return a.largest < b.largest;
-      if (a.is_facet != b.is_facet) return a.is_facet;
-      return a.id < b.id;
-    });
+  parallel_ranges(point_count, 1024, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t p = begin; p < end; ++p)
+      std::sort(faces.begin() + start[p], faces.begin() + start[p + 1], [](const FaceEntry& a, const FaceEntry& b) {
+        if (a.middle != b.middle) return a.middle < b.middle;
+        if (a.largest != b.largest) return a.largest < b.largest;
+        if (a.is_facet != b.is_facet) return a.is_facet;
+        return a.id < b.id;
+      });
+  });
   return faces;
 }
 

@@ -308,6 +308,9 @@ TEST_F(Batch, frames_are_written_with_their_singular_curves) {
   for (const char* file : {"frames.vtu", "frames_singular.vtp"}) EXPECT_GT(fs::file_size(out("f") / file), 0u) << file;
   EXPECT_GT(report("f")["frames"]["cells"], 100);
   EXPECT_THAT(read_text(out("f") / "frames.vtu"), HasSubstr("Name=\"direction_2\" NumberOfComponents=\"3\""));
+  const std::string page = read_text(out("f") / "report.html");
+  EXPECT_THAT(page, HasSubstr("<h2>Frames</h2>"));
+  EXPECT_THAT(page, HasSubstr("angle_between_directions_deg"));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 namespace strataflow {
 namespace {
 
-/// Matrix of Σ |t| ‖∇u‖² with the first unknown held.
-std::vector<MatrixEntry> stiffness_of(const LabelledTets& tets, const UprightSystem& system,
+/// Of Σ |t| ‖∇u‖² with the first unknown held.
+Multigrid guide_of(const LabelledTets& tets, const UprightSystem& system,
                                       const std::vector<TetGradients>& gradients) {
   std::vector<MatrixEntry> lower{{0, 0, 1e3}};
   for (std::size_t t = 0; t < tets.tets.size(); ++t)
@@ -18,7 +18,7 @@ std::vector<MatrixEntry> stiffness_of(const LabelledTets& tets, const UprightSys
         if (row >= column)
           lower.push_back({row, column, gradients[t].volume_m3 * dot(gradients[t].gradient[i], gradients[t].gradient[j])});
       }
-  return lower;
+  return Multigrid(symmetric_rows(system.unknown_count, lower), constant_mode(system.unknown_count));
 }
 
 TEST(UntanglePlan, turns_back_what_was_turned_over) {
@@ -33,11 +33,11 @@ TEST(UntanglePlan, turns_back_what_was_turned_over) {
     v.push_back(at.y - (is_thrown ? 300 : 0));
   }
   const UntangledPlan untangled =
-      untangle_plan(tets, system, gradients, stiffness_of(tets, system, gradients), u, v, 300);
+      untangle_plan(tets, system, gradients, guide_of(tets, system, gradients), u, v, 300);
   EXPECT_TRUE(untangled.is_free_of_foldovers);
   EXPECT_GT(untangled.smallest_determinant, 0);
   EXPECT_GT(untangled.steps, 0u);
-  const UntangledPlan stopped = untangle_plan(tets, system, gradients, stiffness_of(tets, system, gradients), u, v, 0);
+  const UntangledPlan stopped = untangle_plan(tets, system, gradients, guide_of(tets, system, gradients), u, v, 0);
   EXPECT_FALSE(stopped.is_free_of_foldovers);
   EXPECT_EQ(stopped.u, u);
 }

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <string>
+#include <tuple>
 
 #include "base/archive.h"
 #include "kernels/hybrid/shared_surfaces.h"
@@ -137,6 +139,33 @@ TEST(FillHybrid, shells_thinner_than_a_cell_are_prisms_alone_and_others_tetrahed
   }
   EXPECT_EQ(only_prisms, 1u);
   EXPECT_EQ(only_tetrahedra, 2u);
+}
+
+TEST(FillHybrid, smooth_surfaces_layers_and_angular_shapes_are_valid_and_say_what_was_no_cell) {  // X16, H7
+  for (const auto& [name, count, edge] :
+       {std::tuple{"smooth-closed", 300, 22.0}, {"variable-layers", 300, 270.0}, {"bracket", 300, 23.0}}) {
+    const StructuralModel model = remeshed(name, static_cast<std::size_t>(count), edge);
+    const Result<HybridMesh> hybrid = filled(model, sites_of_points(model));
+    ASSERT_TRUE(hybrid) << name << ": " << hybrid.failure().what;
+    expect_valid(*hybrid, model);
+    const FacingCounts& facing = hybrid->report.facing;
+    const DroppedPairs& dropped = hybrid->report.dropped;
+    RecordProperty(std::string(name) + "_inverted_before_repair", static_cast<int>(facing.turned + facing.inverted));
+    RecordProperty(std::string(name) + "_flat_before_repair", static_cast<int>(facing.flat));
+    EXPECT_LE(dropped.isolated + dropped.inverted + dropped.nonconforming + dropped.crossing + dropped.unfilled,
+              facing.pairs)
+        << name;
+    EXPECT_GE(hybrid->report.improvement.smallest_after, hybrid->report.improvement.smallest_before) << name;
+  }
+}
+
+TEST(FillHybrid, no_flat_cells_stand_on_a_plane_fault) {  // traces on it have points with other triangles between
+  const StructuralModel model = remeshed("A2", 150, 420);
+  const Result<HybridMesh> hybrid = filled(model, sites_of_points(model));
+  ASSERT_TRUE(hybrid) << hybrid.failure().what;
+  expect_valid(*hybrid, model);
+  EXPECT_GT(hybrid->report.improvement.exchanges, 0u);
+  EXPECT_GT(analyze_volume_mesh(hybrid->mesh).min_scaled_jacobian, 1e-4);
 }
 
 TEST(FillHybrid, is_the_same_on_every_schedule) {

@@ -50,6 +50,20 @@ TEST(SettleSharedSites, keeps_sites_between_sheets_that_stand_apart_by_an_edge) 
   EXPECT_GT(between, shared.across_layers * 95 / 100);
 }
 
+TEST(SettleSharedSites, leaves_pinned_sites_where_they_are) {
+  const StructuralModel model = slab();
+  SharedSitesOptions drawing;
+  drawing.surface_edge_length_m.assign(model.surfaces.size(), 150);
+  SharedSites shared = draw_shared_sites(model, 100, drawing);
+  shared.is_pinned = {1, 1};  // those beyond move
+  const Result<OptimisedSites> settled =
+      settle_shared_sites(model, {model.points, model.triangles, {}, {}}, shared, {.rounds = 1});
+  ASSERT_TRUE(settled);
+  EXPECT_EQ(settled->sites[0], shared.sites[0]);
+  EXPECT_EQ(settled->sites[1], shared.sites[1]);
+  EXPECT_NE(settled->sites[2], shared.sites[2]);
+}
+
 TEST(FindSheetHolds, looks_only_at_the_sheets_of_a_stack) {
   const StructuralModel model = slab();
   const std::vector<Vec3> sites{{300, 400, 3}, {700, 400, 3}};

@@ -47,6 +47,17 @@ TEST(RemeshOnSharedSites, adds_sites_until_a_faulted_model_is_kept_whole) {
   for (const std::uint32_t site : sites_of_points(shared->built.model)) EXPECT_LT(site, shared->sites);
 }
 
+TEST(RemeshOnSharedSites, keeps_lenses_smaller_than_a_cell_with_sites_that_stay_where_they_were_added) {
+  const StructuralModel eroded = build_structural_model(*generate_reference_model("A6", {.resolution_m = 80}))->model;
+  const Result<SharedSurfaces> shared = remeshed(eroded, 200, 330);
+  ASSERT_TRUE(shared) << shared.failure().what;
+  EXPECT_EQ(shared->built.model.regions.size(), eroded.regions.size());
+  EXPECT_TRUE(is_sealed(shared->built.model, check_validity(shared->built)));
+  EXPECT_GT(shared->added_sites, 0u);
+  FacingCounts counts;
+  EXPECT_FALSE(find_facing_triangles(shared->built.model, sites_of_points(shared->built.model), counts).empty());
+}
+
 TEST(RemeshOnSharedSites, refuses_to_work_without_sites) { EXPECT_FALSE(remesh_on_shared_sites({}, {})); }
 
 TEST(SitesOfPoints, are_none_where_no_property_says) {

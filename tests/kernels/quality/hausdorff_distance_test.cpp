@@ -148,7 +148,7 @@ TEST(HausdorffDistance, with_few_samples_says_how_much_it_may_have_missed) {
   ridged.push_back({0.5, 0.3, 0.2});
   const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}}, four{{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
   const auto exact = hausdorff_distance({flat, two}, {ridged, four});
-  const auto rough = hausdorff_distance({flat, two}, {ridged, four}, {.samples_per_triangle = 1});
+  const auto rough = hausdorff_distance({flat, two}, {ridged, four}, {.samples = 1});
   ASSERT_TRUE(exact && rough);
   EXPECT_LT(rough->forward.samples, exact->forward.samples);
   EXPECT_LE(rough->forward.distance_m, exact->forward.bound_m);

@@ -41,6 +41,24 @@ TEST(NearestTriangle, finds_what_looking_at_every_triangle_finds_whatever_the_gu
   }
 }
 
+TEST(NearestTriangle, tells_whether_any_lies_within_a_distance_whatever_the_guess) {
+  const Mesh mesh = sphere(1, 12);
+  const NearestTriangle search({mesh.points, mesh.triangles});
+  RandomStream random(6);
+  std::uint32_t last = no_index;
+  for (int i = 0; i < 400; ++i) {
+    const Vec3 p{4 * random.unit() - 2, 4 * random.unit() - 2, 4 * random.unit() - 2};
+    const double reach = random.unit(), nearest = search.nearest(p).squared_m2;
+    std::uint32_t none = no_index;
+    EXPECT_EQ(search.is_within(p, reach, none), nearest <= reach);
+    EXPECT_EQ(search.is_within(p, reach, last), nearest <= reach);
+    if (nearest <= reach) {
+      EXPECT_LE(search.squared_m2(p, last), reach);
+    }
+    EXPECT_TRUE(search.is_within(p, nearest, none));
+  }
+}
+
 TEST(NearestTriangle, an_empty_mesh_is_infinitely_far) {
   EXPECT_EQ(NearestTriangle({{}, {}}).nearest({1, 2, 3}).squared_m2, std::numeric_limits<double>::infinity());
 }

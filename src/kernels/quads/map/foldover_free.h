@@ -12,6 +12,7 @@ struct FoldoverFreeOptions {
   std::int64_t iterations = 100;  ///< at most, of each start
   double area_weight = 0.5;       ///< of the determinant against the angles
   double tolerance = 1e-3;        ///< stop when a step gains less than this share of the energy
+  bool may_start_afresh = true;   ///< optimise_map: from least squares where an earlier map cannot be carried over
   std::function<bool()> is_cancelled = {};
 };
 

@@ -155,7 +155,7 @@ Result<OptimisedMap> optimise_map(const FeatureMesh& mesh, const FrameField& fie
   if (start)
     if (const auto scalars = develop_map(*layout, *reduction, *start)) {
       Result<OptimisedMap> map = finished(carry_map(*energy, *reduction, *scalars, 40, options));
-      if (is_over(map)) return map;
+      if (is_over(map) || !options.may_start_afresh) return map;
       failures.clear();
     }
   // From least squares whose folds are stiffened by a factor. A start that ends folded or wound leaves others.

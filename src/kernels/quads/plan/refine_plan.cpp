@@ -266,6 +266,11 @@ bool split_chords(PlaneTriangulation& mesh, SampledPlan& plan, const std::vector
     for (const std::uint32_t p : {mesh.origin(h), mesh.target(h)})
       if (std::find(groups[p].begin(), groups[p].end(), g) == groups[p].end()) groups[p].push_back(g);
   }
+  // Its ends lie on two sides of a quad of the map, even where these sides are one curve's.
+  const auto fills_acute_corner = [&](std::uint32_t h) {
+    const std::uint32_t back = PlaneTriangulation::previous(h);
+    return mesh.is_fixed(PlaneTriangulation::next(h)) && mesh.is_fixed(back) && angle_at(mesh, back) <= acute_angle_deg;
+  };
   bool any = false;
   const std::uint32_t count = mesh.half_edge_count();
   const std::size_t known = groups.size();
@@ -276,7 +281,9 @@ bool split_chords(PlaneTriangulation& mesh, SampledPlan& plan, const std::vector
       return std::find(groups[b].begin(), groups[b].end(), g) != groups[b].end();
     });
     const double l = length(mesh.points()[a] - mesh.points()[b]);
-    if (!is_chord || !mesh.split_edge(h, 0.5 * (mesh.points()[a] + mesh.points()[b]))) continue;
+    if (!is_chord || fills_acute_corner(h) || fills_acute_corner(mesh.opposite(h)) ||
+        !mesh.split_edge(h, 0.5 * (mesh.points()[a] + mesh.points()[b])))
+      continue;
     plan.size_m.push_back(0.5 * l);
     any = true;
   }

@@ -21,6 +21,7 @@ class DualCleaning {
  public:
   DualCleaning(const StructuralModel& model, DualMesh& mesh) : model_(model), mesh_(mesh) {
     is_dead_.assign(mesh.triangles.size(), 0);
+    flips_.assign(mesh.triangles.size(), 0);
     around_.resize(mesh.points.size());
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
       for (const std::uint32_t corner : mesh.triangles[t]) around_[corner].push_back(t);
@@ -199,6 +200,9 @@ class DualCleaning {
     std::erase_if(both, [&](std::uint32_t other) { return mesh_.triangle_surface[other] != surface; });
     if (both.size() != 2 || line_of_edge(middle.before, middle.after) != no_index) return false;
     const std::uint32_t behind = both[0] == t ? both[1] : both[0];
+    // Where all corners are on lines a flip may make what another flip takes back, for ever.
+    constexpr std::uint8_t most_flips = 8;
+    if (flips_[t] >= most_flips || flips_[behind] >= most_flips) return false;
     const Triangle old = mesh_.triangles[behind];
     std::size_t k = 0;
     while (old[k] == middle.before || old[k] == middle.after) ++k;
@@ -207,6 +211,8 @@ class DualCleaning {
     const Triangle first{far, old[(k + 1) % 3], middle.point}, second{far, middle.point, old[(k + 2) % 3]};
     for (const Triangle& made : {first, second})
       if (signed_sharpness(at(made[0]), at(made[1]), at(made[2]), normal(old)) < flat) return false;
+    ++flips_[t];
+    ++flips_[behind];
     kill(t);
     kill(behind);
     add(t, first);
@@ -356,6 +362,7 @@ class DualCleaning {
   const StructuralModel& model_;
   DualMesh& mesh_;
   std::vector<char> is_dead_, is_on_lines_;
+  std::vector<std::uint8_t> flips_;  ///< per triangle
   std::vector<Indices> around_;
   Indices line_of_;
   std::vector<Indices> lines_at_;  ///< per point, ascending

@@ -64,7 +64,7 @@ class GuardedMesh {
  public:
   GuardedMesh(const InputSurfaces& inputs, const GuardOptions& options);
 
-  /// Vertices and triangles keep their numbers while they live.
+  /// Vertices and triangles keep their numbers while they live and nobody calls renumber().
   std::uint32_t vertex_count() const { return static_cast<std::uint32_t>(points_.size()); }
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles_.size()); }
   bool is_alive_vertex(std::uint32_t v) const { return head_[v] != no_index; }
@@ -113,6 +113,10 @@ class GuardedMesh {
   Verdict split_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand);
   /// Replaces an edge inside a surface by the other diagonal of its two triangles.
   Verdict flip_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand);
+
+  /// Numbers vertices and triangles anew, without the dead, along a curve that fills space: sweeps over them then find
+  /// most of what they read in the caches.
+  void renumber();
 
   /// Whether GuardOptions::is_cancelled was true once.
   bool is_stopped() const { return is_stopped_; }

@@ -66,6 +66,7 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
     report.flips += flip_edges(mesh);
     report.splits += split_long_edges(mesh);
     report.collapses += collapse_short_edges(mesh);
+    mesh.renumber();
     if (round == 0) report.moves += shake(mesh, shaken_share);
     // Regular vertices first, the best angles last.
     const bool is_last = round + 1 == options.rounds;

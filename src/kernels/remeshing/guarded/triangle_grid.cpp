@@ -42,7 +42,7 @@ void TriangleGrid::insert(std::uint32_t triangle, const FloatBox& box) {
     } else {
       free_node_ = nodes_[node].next;
     }
-    nodes_[node] = {triangle, level.heads[cell]};
+    nodes_[node] = {triangle, level.heads[cell], box};
     level.heads[cell] = node;
   });
 }
@@ -60,10 +60,25 @@ void TriangleGrid::erase(std::uint32_t triangle) {
   });
 }
 
+void TriangleGrid::clear() {
+  for (Level& level : levels_) {
+    std::fill(level.heads.begin(), level.heads.end(), no_index);
+    level.triangles = 0;
+  }
+  nodes_.clear();
+  free_node_ = no_index;
+}
+
 void TriangleGrid::move(std::uint32_t triangle, const FloatBox& box) {
   const std::size_t from = level_of(boxes_[triangle]);
   if (from == level_of(box) && levels_[from].cells_of(box) == levels_[from].cells_of(boxes_[triangle])) {
     boxes_[triangle] = box;
+    const Level& level = levels_[from];
+    level.for_each_cell(level.cells_of(box), [&](std::size_t cell) {
+      std::uint32_t node = level.heads[cell];
+      while (nodes_[node].triangle != triangle) node = nodes_[node].next;
+      nodes_[node].box = box;
+    });
   } else {
     erase(triangle);
     insert(triangle, box);

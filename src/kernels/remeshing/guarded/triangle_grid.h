@@ -22,6 +22,8 @@ class TriangleGrid {
   void insert(std::uint32_t triangle, const FloatBox& box);
   /// `triangle` is in the grid.
   void erase(std::uint32_t triangle);
+  /// Takes out all.
+  void clear();
   /// The same as erase and insert, often cheaper.
   void move(std::uint32_t triangle, const FloatBox& box);
   const FloatBox& box(std::uint32_t triangle) const { return boxes_[triangle]; }
@@ -33,7 +35,7 @@ class TriangleGrid {
       if (level.triangles == 0) continue;
       level.for_each_cell(level.cells_of(box), [&](std::size_t cell) {
         for (std::uint32_t node = level.heads[cell]; node != no_index; node = nodes_[node].next)
-          if (overlap(boxes_[nodes_[node].triangle], box)) visit(nodes_[node].triangle);
+          if (overlap(nodes_[node].box, box)) visit(nodes_[node].triangle);
       });
     }
   }
@@ -41,6 +43,7 @@ class TriangleGrid {
  private:
   struct Node {
     std::uint32_t triangle = 0, next = no_index;
+    FloatBox box;  ///< the triangle's, once more: looking it up there misses the caches
   };
   struct Cells {
     std::array<int, 3> from, to;

@@ -115,6 +115,7 @@ TEST(ExtractQuads, a_tube_is_an_annulus_without_singular_points) {
   EXPECT_EQ(quads->edges.size(), 16u);
 }
 
+/// R19.
 TEST(ExtractQuads, valences_are_held_against_the_field) {
   MappedMesh m = box_faces({2, 2, 2}, {0, 1, 2, 3, 4, 5}, 2);
   m.map.valence.assign(m.mesh.points.size(), 4);

@@ -21,6 +21,7 @@ FieldTopology crosses_of(const FeatureMesh& mesh, const FeatureLayout& layout) {
   return match_frames(layout, layout.angle, frames);
 }
 
+/// R12.
 TEST(FieldTopology, turns_of_opposite_half_edges_cancel_and_indices_sum_up_to_the_euler_characteristic) {
   for (const FeatureMesh& mesh :
        {support::square_with_fault(8), support::disc(6), support::box_surface(1, 2, 1, 3), support::torus(12, 8)}) {

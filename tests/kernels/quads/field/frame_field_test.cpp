@@ -31,6 +31,20 @@ TEST(FrameField, has_the_singular_points_that_the_shape_asks_for) {
   const FrameFieldReport box = field_of(support::box_surface(1, 2, 3, 4)).report;
   EXPECT_EQ(box.valence_3 + box.valence_5 + box.valence_other, 0);
   EXPECT_EQ(box.feature_irregular, 8);
+  const FeatureMesh l_shape = [] {
+    FeatureMesh mesh = support::bare_grid(8, 8, [](double x, double y) { return Vec3{8 * x, 8 * y, 0}; },
+                                          [](std::uint32_t i, std::uint32_t j) { return i < 4 || j < 4; });
+    std::vector<std::uint32_t> rim = support::grid_path(0, 8, 1);
+    for (const auto& [from, to, step] : {std::array{8, 44, 9}, {44, 40, -1}, {40, 76, 9}, {76, 72, -1}, {72, 0, -9}}) {
+      const auto side = support::grid_path(static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(to), step);
+      rim.insert(rim.end(), side.begin() + 1, side.end());
+    }
+    support::add_feature(mesh, "rim", rim);
+    support::add_corners(mesh, {0, 8, 44, 40, 76, 72});
+    return mesh;
+  }();
+  const FrameFieldReport bent = field_of(l_shape).report;
+  EXPECT_EQ(bent.valence_3 + bent.valence_5 + bent.valence_other, 0) << "the reentrant corner takes three quads";
   const FrameFieldReport torus = field_of(support::torus(24, 12)).report;
   EXPECT_EQ(torus.valence_3, torus.valence_5);
 }

@@ -116,7 +116,7 @@ PolynomialField field_of(const FeatureMesh& mesh, const PolynomialFieldOptions& 
   return compute_polynomial_field(*layout, *smooth_cross_field(mesh, *layout, layout->angle), options);
 }
 
-/// R11.
+/// R10 and R11.
 TEST(PolynomialField, never_raises_its_energy_within_a_step_and_reproduces_constraints) {
   const FeatureMesh mesh = *separate_features(support::disc(6));
   const auto layout = build_feature_layout(mesh);
@@ -147,11 +147,33 @@ TEST(PolynomialField, stands_on_both_sides_of_an_acute_corner) {
   EXPECT_LT(std::sin(field.frames[2][1] - field.frames[2][0]), 0.8);  // its neighbour is oblique as well
 }
 
+/// T15: singular points lie on the boundary, from where they must be led away, then inside, ever further from it.
+TEST(PolynomialField, lets_singular_points_go_to_the_boundary_where_lambda_is_small) {
+  const FeatureMesh mesh = *separate_features(support::disc(10));
+  const auto field = [&](double lambda) {
+    return *compute_frame_field(mesh, {.kind = "polynomial", .lambda = lambda, .iterations = 20});
+  };
+  const auto mean_radius = [&](const FrameFieldResult& result) {
+    double sum = 0, count = 0;
+    for (std::size_t p = 0; p < mesh.points.size(); ++p)
+      if (result.field.valence[p] == 3) {
+        sum += std::hypot(mesh.points[p].x, mesh.points[p].y);
+        ++count;
+      }
+    return sum / count;
+  };
+  EXPECT_GE(field(0.1).report.off_features, 4);
+  const FrameFieldResult middle = field(1.5), large = field(50);
+  EXPECT_EQ(middle.report.off_features + large.report.off_features, 0);
+  EXPECT_EQ(large.report.valence_3, 4);
+  EXPECT_LT(mean_radius(large), 0.8 * mean_radius(middle));
+}
+
 /// T15: the mean obliqueness falls as λ grows.
 TEST(PolynomialField, becomes_a_cross_field_as_lambda_grows) {
   const FeatureMesh mesh = *separate_features(support::disc(6));
   double before = 2;
-  for (const double lambda : {0.1, 1.5, 50.0}) {
+  for (const double lambda : {0.1, 0.5, 1.5, 50.0}) {
     double oblique = 0;
     const PolynomialField field = field_of(mesh, {.lambda = lambda, .iterations = 20});
     for (const auto& [a, b] : field.frames) oblique += std::abs(std::cos(b - a)) / static_cast<double>(field.frames.size());

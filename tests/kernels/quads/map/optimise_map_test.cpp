@@ -84,6 +84,13 @@ TEST(OptimiseMap, starts_again_from_an_earlier_map_under_new_constraints) {
   ASSERT_TRUE(again) << describe(again.failure());
   EXPECT_EQ(measure_map(mesh, again->map)->flipped, 0);
   EXPECT_NEAR((again->map.at(next_half_edge(h)) - again->map.at(h)).real(), static_cast<double>(asked), 1e-12);
+  // A side that shall run backwards cannot be reached without a fold.
+  const std::vector<IntegerConstraint> backwards{{{{next_half_edge(h), {1, 0}}, {h, {-1, 0}}}, {-asked, 0}}};
+  FoldoverFreeOptions options;
+  options.may_start_afresh = false;
+  const auto stuck = optimise_map(mesh, field, backwards, &seamless->map, options);
+  ASSERT_FALSE(stuck);
+  EXPECT_NE(stuck.failure().what.find("carried over"), std::string::npos) << stuck.failure().what;
 }
 
 TEST(OptimiseMap, is_the_same_on_every_schedule) {

@@ -112,6 +112,7 @@ TEST(PlanGraphTest, crossings_are_nodes_and_overlaps_carry_both_features) {
   EXPECT_EQ(both, 2);
 }
 
+/// R8, with the next three: short edges go, ends and junctions stay, nothing crosses.
 TEST(ContractShortEdges, drops_bends_within_the_limit_and_keeps_the_others) {
   // A bend of 0.5 m goes, one of 3 m stays.
   const PlanGraph graph = cleaned(

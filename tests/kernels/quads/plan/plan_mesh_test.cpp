@@ -122,6 +122,7 @@ TEST(PlanMesh, has_the_same_bits_on_every_schedule) {
   });
 }
 
+/// R8.
 TEST(PlanMesh, holds_every_curve_of_generated_networks_within_a_tenth_of_an_edge) {
   for (std::uint32_t index = 0; index < 3 * network_family_count; ++index) {
     const GeneratedNetwork network = generate_network(index);

@@ -147,6 +147,17 @@ TEST(DecimateMap, a_closed_feature_keeps_one_point_and_a_free_wavy_boundary_is_s
   EXPECT_TRUE(strict.map.is_embedded);
 }
 
+// T29, the growth: flips with the triangles of the map, log-log; 1.1 is what we see.
+TEST(DecimateMap, flips_grow_with_the_triangles) {
+  const auto flips = [](int points) {
+    MapShape shape = support::terrain_map(4, 3);
+    support::insert_points(shape, points, 7);
+    const auto flat = round_map(shape.mesh, shape.map);
+    return static_cast<double>(decimate_map(shape.mesh, *flat, cut_chart(*flat)).flips);
+  };
+  EXPECT_LT(std::log(flips(8000) / flips(500)) / std::log(16), 1.3);
+}
+
 TEST(DecimateMap, gives_the_same_bits_again) {
   MapShape shape = support::box_map(3.7, 5.5, 1.8, 4);
   support::insert_points(shape, 100, 5);

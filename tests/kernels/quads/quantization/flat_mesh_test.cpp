@@ -28,7 +28,7 @@ TEST(FlatMesh, forms_add_up_and_cancel) {
   EXPECT_EQ(coefficient(sum, 4), (GaussianInteger{0, 2}));
 }
 
-// Fig. 4.5 of coudert2024: U_l = U_i, U_m = U_k − i(U_j − U_k), U_n = U_k.
+// T21, Fig. 4.5 of coudert2024: U_l = U_i, U_m = U_k − i(U_j − U_k), U_n = U_k.
 TEST(FlatMesh, the_worked_example_of_the_source_adds_up) {
   constexpr std::uint32_t i = 0, j = 1, k = 2;
   const LinearForm l{{i, {1, 0}}}, m{{j, {0, -1}}, {k, {1, 1}}}, n{{k, {1, 0}}};

@@ -1,5 +1,8 @@
 #include "kernels/remeshing/guarded/guarded_mesh.h"
 
+#include <algorithm>
+#include <array>
+
 #include "kernels/remeshing/guarded/mesh_of_soup.h"
 
 namespace strataflow {
@@ -84,6 +87,35 @@ TEST(GuardedMesh, counts_how_its_steps_ended) {
   EXPECT_EQ(m.mesh.step_count(), 1u);
   EXPECT_EQ(m.mesh.star_changed_at(m.at({3, 2, 0})), 1u);
   EXPECT_EQ(m.mesh.star_changed_at(m.at({6, 6, 0})), 0u);
+}
+
+TEST(GuardedMesh, goes_on_as_before_once_it_is_numbered_anew) {
+  Mesh plain(support::layered_box(4)), anew(support::layered_box(4));
+  const auto change = [](Mesh& m) {
+    EXPECT_EQ(m.mesh.split_edge(m.at({0, 0, 0}), m.at({2.5, 0, 0}), {}), Verdict::done);
+    EXPECT_EQ(m.mesh.collapse_edge(m.at({5, 5, 0}), m.at({7.5, 5, 0}), {}), Verdict::done);
+  };
+  change(plain);
+  change(anew);
+  anew.mesh.renumber();
+  EXPECT_EQ(anew.alive(), anew.mesh.triangle_count()) << "the dead keep no numbers";
+  EXPECT_EQ(anew.mesh.step_count(), plain.mesh.step_count());
+  anew.expect_valid();
+  for (Mesh* m : {&plain, &anew}) {
+    EXPECT_EQ(m->mesh.slide_vertex(m->at({1.25, 0, 0}), m->mesh.arcs_around(m->at({1.25, 0, 0}))[1] + 0.25, {}),
+              Verdict::done);
+    // Straight through the box: the guard still finds what is in the way.
+    EXPECT_EQ(m->mesh.move_vertex(m->at({2.5, 2.5, 0}), {2.5, 2.75, 0}, {}), Verdict::done);
+    EXPECT_EQ(m->mesh.collapse_edge(m->at({2.5, 2.75, 0}), m->at({0, 2.5, 0}), {}), Verdict::done);
+    m->expect_valid();
+  }
+  const auto sorted_points = [](const Mesh& m) {
+    std::vector<std::array<double, 3>> points;
+    for (const Vec3& p : m.mesh.soup().points) points.push_back({p[0], p[1], p[2]});
+    std::sort(points.begin(), points.end());
+    return points;
+  };
+  EXPECT_EQ(sorted_points(plain), sorted_points(anew));
 }
 
 }  // namespace
