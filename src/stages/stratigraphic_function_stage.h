@@ -50,7 +50,7 @@ struct LayerStageOptions {
 /// The function whose whole values are the levels between layers (coudert2024 S12, S13).
 struct FindStratigraphicFunction {
   static constexpr std::string_view name = "stratigraphic_function";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   LayerStageOptions options;
 
   Result<LayeredSpace> operator()(const UprightModel& upright, StageContext& context) const;

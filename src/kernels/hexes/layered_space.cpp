@@ -55,7 +55,9 @@ Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels
     space.layers = std::move(*layers);
     space.flipped = flipped_in_layers(space.layers, space.plan);
     if (!space.flipped.empty()) {
-      const Result<std::size_t> steepened = steepen_layers(space.model, space.levels, space.plan, space.layers);
+      const std::size_t solves = round == 0 ? 40 : 8;  // later rounds begin near what they look for
+      const Result<std::size_t> steepened =
+          steepen_layers(space.model, space.levels, space.plan, space.layers, solves);
       if (!steepened) return steepened.failure();
       space.flipped = flipped_in_layers(space.layers, space.plan);
     }

@@ -194,7 +194,7 @@ DirectedDistance directed(const TriangleMesh& mesh, const NearestTriangle& other
       const std::span now(candidates.data() + begin, std::min(batch, candidates.size() - begin));
       std::sort(now.begin(), now.end(), [](const Candidate& a, const Candidate& b) { return a.triangle < b.triangle; });
       const double beaten_m = result.distance_m;
-      const std::uint64_t each = std::min(limit, budget - spent);
+      const std::uint64_t each = std::min(limit, std::max<std::uint64_t>(1, (budget - spent) / now.size()));
       const std::vector<Found> found = parallel_map(
           now.size(),
           [&](std::size_t i) {
