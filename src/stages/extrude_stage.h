@@ -46,7 +46,7 @@ struct SmoothHexesStageOptions {
 /// Improves the worst cells; horizons, faults, sides and wells keep their places.
 struct SmoothHexes {
   static constexpr std::string_view name = "smooth_hexes";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   SmoothHexesStageOptions options;
 
   Result<SmoothedHexes> operator()(const LayeredSpace& space, const ExtrudedHexes& hexes, StageContext& context) const;

@@ -18,7 +18,7 @@ double inner(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::size_t conjugate_gradients(const Multigrid& guide, const std::vector<double>& b, std::vector<double>& x,
                                 double tolerance_ratio, std::size_t most_steps) {
-  constexpr std::size_t grain = 4096;
+  constexpr std::size_t grain = 16384;
   const std::size_t size = b.size();
   const auto ranges = [&](auto&& item) {
     parallel_ranges(size, grain, [&](std::size_t begin, std::size_t end) {

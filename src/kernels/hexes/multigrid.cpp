@@ -10,7 +10,7 @@
 namespace strataflow {
 namespace {
 
-constexpr std::size_t grain = 4096;
+constexpr std::size_t grain = 16384;  // rows: shorter loops are not worth a second thread
 
 /// Which nodes are joined strongly.
 struct NodeGraph {

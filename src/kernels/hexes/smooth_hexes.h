@@ -22,9 +22,9 @@ struct HexSmoothing {
 };
 
 /// Moves vertices so that the worst scaled Jacobian of the cells around each never falls and mostly rises, and no cell
-/// is turned over for it. Vertices over features of the plan (faults, sides, wells, curves) stay, and so do those of cells without full volume; those on
-/// horizons, top and bottom slide on their triangles. Vertices that share a cell move one after the other, all others at
-/// the same time; the same bits on every schedule. Fails with invalid_options.
+/// is turned over for it. Vertices over features of the plan (faults, sides, wells, curves) stay, and so do those of
+/// cells without full volume; those on horizons, top and bottom slide on their triangles. Vertices that share a cell
+/// move one after the other, all others at the same time; the same bits on every schedule. Fails with invalid_options.
 Result<HexSmoothing> smooth_hexes(ExtrudedHexes& hexes, const LayeredSpace& space, const SmoothHexesOptions& options = {});
 
 /// Smallest determinant of three unit edge vectors over the eight corners.

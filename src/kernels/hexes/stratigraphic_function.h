@@ -55,10 +55,10 @@ struct StratigraphicTets {
 
 /// The function whose whole values are the boundaries of layers (coudert2024 S12): harmonic, W of each
 /// horizon on both sides of every fault. The weights are those of linear elements (cotangents), so that W is linear
-/// between parallel horizons however flat a tetrahedron is; where they
-/// let W leave its unit, the mean of the neighbours takes its place. One solve. `tets` should have gone through
-/// split_level_chords. `near`: what was found before tetrahedra were split, to start from. Fails with: invalid_options; unsupported (a compartment without level, named by its region);
-/// geometry_failed (more than 2³⁰ tetrahedra).
+/// between parallel horizons however flat a tetrahedron is; where they let W leave its unit, the mean of the neighbours
+/// takes its place. One solve, which starts from `near`: what was found before some of the tetrahedra were split, or
+/// null. `tets` should have gone through split_level_chords. Fails with: invalid_options; unsupported (a compartment
+/// without level, named by its region); geometry_failed (more than 2³⁰ tetrahedra, a solve that does not end).
 Result<StratigraphicTets> find_stratigraphic_function(const LabelledTets& tets, const StratigraphicLevels& levels,
                                                       const LayerOptions& options = {},
                                                       const StratigraphicTets* near = nullptr);
