@@ -55,7 +55,8 @@ Port<InputData> wire_input(JobWirer& wirer, const Job& job, const JobInput& inpu
   if (input.model)
     return wirer.add("generate/" + *input.model, Generate{{*input.model, input.resolution_m, input.raw_ratio}});
   const std::filesystem::path path = job.input_path(input);
-  return wirer.add("read/" + path.filename().string(), Read{{input.name, input.role, input.sticks, input.traces}, path});
+  return wirer.add("read/" + path.filename().string(),
+                   Read{{input.name, input.role, input.sticks, input.traces}, path});
 }
 
 /// From surfaces as they were read to surfaces that conform.
@@ -72,16 +73,15 @@ Port<InputData> wire_surfaces(JobWirer& wirer, const Job& job, Port<InputData> s
 
 /// Whether a job makes anything but quads that stand on curves.
 bool needs_model(const Job& job) {
-  return std::any_of(job.output.products.begin(), job.output.products.end(), [&](const std::string& product) {
-    return product != "quads" || !job.quad.surfaces.empty();
-  });
+  return std::any_of(job.output.products.begin(), job.output.products.end(),
+                     [&](const std::string& product) { return product != "quads" || !job.quad.surfaces.empty(); });
 }
 
 /// The checked model, the surfaces remeshed if anything stands on them, and the pictures of both.
 void wire_model(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob& wired) {
   const Port<BuiltModel> model = wirer.add("build_model", BuildModel{}, wire_surfaces(wirer, job, input, wired));
-  const bool remeshes =
-      job.makes("surfaces") || (job.output.from == "surfaces" && (job.makes("tets") || job.makes("hexes") || job.makes("frames")));
+  const bool remeshes = job.makes("surfaces") || (job.output.from == "surfaces" &&
+                                                  (job.makes("tets") || job.makes("hexes") || job.makes("frames")));
   const bool must_be_sealed = (job.cut.judge.mode != "never" && job.seal.required) || job.makes("tets") ||
                               job.makes("hybrid") || job.makes("hexes") || job.makes("frames") || remeshes;
   wired.model = model;
@@ -120,8 +120,8 @@ void wire_hybrid(JobWirer& wirer, const Job& job, WiredJob& wired) {
   wired.hybrid_remeshed = wirer.add("remesh_hybrid", RemeshHybrid{job.hybrid}, *wired.model, *wired.validity);
   wired.hybrid_surfaces = wirer.add("build_hybrid_surfaces", BuildSurfaces{}, *wired.hybrid_remeshed);
   const auto validity = wirer.add("check_hybrid_surfaces", CheckValidity{{true}}, *wired.hybrid_surfaces);
-  wired.hybrid_surfaces_report =
-      wirer.add("compare_hybrid_surfaces", CompareSurfaces{{job.hybrid.preserve == "all"}}, *wired.model, *wired.hybrid_surfaces);
+  wired.hybrid_surfaces_report = wirer.add("compare_hybrid_surfaces", CompareSurfaces{{job.hybrid.preserve == "all"}},
+                                           *wired.model, *wired.hybrid_surfaces);
   wired.hybrid = wirer.add("hybrid", FillHybrid{job.hybrid}, *wired.hybrid_surfaces, validity);
   const auto cells = wirer.add("hybrid_cells", TakeHybridCells{}, *wired.hybrid);
   wired.hybrid_quality = wirer.add("check_hybrid", CheckMesh{}, *wired.hybrid_surfaces, cells);
@@ -138,8 +138,9 @@ struct WiredQuads {
 };
 
 WiredQuads wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<FeatureMesh> problem) {
-  const auto field = wirer.add("frame_field", ComputeFrameField{{quad.field, quad.fallback}}, problem);
-  const auto seamless = wirer.add("seamless_map", SeamlessMap{{quad.field, quad.fallback}}, problem, field);
+  const auto field = wirer.add("frame_field", ComputeFrameField{{quad.field, quad.fallback, quad.curves}}, problem);
+  const auto seamless =
+      wirer.add("seamless_map", SeamlessMap{{quad.field, quad.fallback, quad.curves}}, problem, field);
   QuantizeStageOptions integers = quad.integers;
   ExtractQuadsOptions extraction = quad.quads;
   integers.fallback = extraction.fallback = quad.fallback;
@@ -153,8 +154,7 @@ WiredQuads wire_quads(JobWirer& wirer, const QuadOptions& quad, Port<FeatureMesh
 Port<ExtrudedHexes> wire_upright_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, Port<VolumeMesh> tets,
                                        WiredJob& wired) {
   wired.upright = wirer.add("verticalize", Verticalize{job.hex.plan}, tets);
-  wired.layered_space =
-      wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
+  wired.layered_space = wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
   QuadOptions quad = job.quad;
   if (job.hex.edge_length_m) quad.problem.plan.edge_length_m = *job.hex.edge_length_m;
   const auto lines = wirer.add("take_plan_lines", TakePlanLines{}, *wired.upright, input);
@@ -182,8 +182,7 @@ Port<ExtrudedHexes> wire_upright_hexes(JobWirer& wirer, const Job& job, Port<Inp
 /// The same of upright columns that need not follow faults.
 Port<ExtrudedHexes> wire_stair_steps(JobWirer& wirer, const Job& job, Port<VolumeMesh> tets, WiredJob& wired) {
   wired.upright = wirer.add("take_plan", TakePlan{{job.hex.plan.drop_alignment}}, tets);
-  wired.layered_space =
-      wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
+  wired.layered_space = wirer.add("stratigraphic_function", FindStratigraphicFunction{job.hex.layers}, *wired.upright);
   const double edge_m = job.hex.edge_length_m.value_or(job.quad.problem.plan.edge_length_m);
   const auto hexes = wirer.add("stair_step", StairStep{{edge_m}}, *wired.layered_space);
   wired.hex_plan = wirer.add("take_hex_plan", TakeHexPlan{}, hexes);
@@ -209,10 +208,9 @@ void wire_hexes(JobWirer& wirer, const Job& job, Port<InputData> input, WiredJob
   }
   wired.smoothed_hexes = wirer.add("smooth_hexes", SmoothHexes{smoothing}, *wired.layered_space, extruded);
   wired.hexes = wirer.add("check_hexes", CheckHexes{}, *wired.smoothed_hexes, *wired.layered_space, *wired.hex_plan);
-  wired.simulation =
-      wirer.add("simulation_grid", MakeSimulationGrid{simulation}, *wired.smoothed_hexes, *wired.hexes, input);
-  wired.hexes_pictures =
-      wirer.add("draw_hexes", DrawMesh{}, wirer.add("hex_cells", TakeHexCells{}, *wired.hexes));
+  wired.simulation = wirer.add("simulation_grid", MakeSimulationGrid{simulation}, *wired.smoothed_hexes, *wired.hexes,
+                               *wired.layered_space, input);
+  wired.hexes_pictures = wirer.add("draw_hexes", DrawMesh{}, wirer.add("hex_cells", TakeHexCells{}, *wired.hexes));
 }
 
 WiredJob wire_job(StageGraph& graph, const Job& job) {

@@ -13,12 +13,14 @@ namespace strataflow {
 struct MeshedQuads {
   QuadMesh mesh;
   QuadQuality quality;
-  double scaled_jacobian_before = 0;  ///< the smallest before smoothing
-  std::vector<std::string> missing;   ///< features_not_followed()
-  std::string why_subdivided;         ///< the failure that the fallback stands in for; empty: quads of the map
+  double scaled_jacobian_before = 0;     ///< the smallest before smoothing
+  std::vector<std::string> missing;      ///< features_not_followed()
+  std::string why_subdivided;            ///< the failure that the fallback stands in for; empty: quads of the map
+  std::vector<std::string> imprinted{};  ///< curves laid into quads that the map does not align with them
+  std::vector<std::uint32_t> created{};  ///< irregular points inside that come of that, not of the field
   template <class A>
   void archive(A& a) {
-    a(mesh, quality, scaled_jacobian_before, missing, why_subdivided);
+    a(mesh, quality, scaled_jacobian_before, missing, why_subdivided, imprinted, created);
   }
 };
 
@@ -40,11 +42,12 @@ struct ExtractQuadsOptions {
   }
 };
 
-/// Quads of a grid-preserving map, smoothed with all features kept. Fails if a feature is missing, a quad is inverted
+/// Quads of a grid-preserving map, smoothed with all features kept; curves that the map does not follow are laid into
+/// them and every quad is divided once (imprint_curves). Fails if a feature is missing, a quad is inverted
 /// or a value is not finite: never a silently wrong mesh.
 struct ExtractQuads {
   static constexpr std::string_view name = "extract_quads";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   ExtractQuadsOptions options;
 
   Result<MeshedQuads> operator()(const FeatureMesh& problem, const Attempt<GridMapping>& grid,

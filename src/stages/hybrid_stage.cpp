@@ -128,6 +128,7 @@ Result<HybridMesh> FillHybrid::operator()(const BuiltModel& surfaces, const Vali
   FillHybridOptions filling;
   filling.layers_through_thin = options.layers_through_thin;
   filling.fill = options.fill_options();
+  filling.interior_sites = options.interior_sites;
   Result<HybridMesh> hybrid =
       fill_hybrid(surfaces.model, sites_of_points(surfaces.model), filling, context.cancellation());
   if (hybrid)

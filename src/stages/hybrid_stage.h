@@ -24,6 +24,7 @@ struct HybridOptions {
   double thin_ratio = 1.0;
   std::int64_t layers_through_thin = 1;
   std::int64_t iterations = 100;
+  std::optional<std::int64_t> interior_sites{};
   std::optional<double> radius_edge_ratio{};
   std::optional<double> max_volume_m3{};
   std::map<std::string, double> region_max_volume_m3{};
@@ -86,6 +87,12 @@ struct HybridOptions {
                                   .description = "Quasi-Newton steps of the optimisation of sites, at most",
                                   .minimum = 0,
                                   .maximum = 100000});
+    visit(interior_sites, OptionField{.name = "interior_sites",
+                                      .description = "Number of sites inside all regions together, beside the thin "
+                                                     "layers; 0: none. Absent: as many as the edges of the surfaces "
+                                                     "around each region ask for",
+                                      .minimum = 0,
+                                      .maximum = 1e8});
     visit(radius_edge_ratio, OptionField{.name = "radius_edge_ratio",
                                          .description = "Largest ratio of circumradius to shortest edge of tetrahedra "
                                                         "beside the thin layers; absent: they only conform",
@@ -111,7 +118,7 @@ struct HybridOptions {
 /// sites.
 struct RemeshHybrid {
   static constexpr std::string_view name = "remesh_hybrid";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   static constexpr bool uses_seed = true;
   HybridOptions options;
 
@@ -123,7 +130,7 @@ struct RemeshHybrid {
 /// (pellerin2014 §2.11).
 struct FillHybrid {
   static constexpr std::string_view name = "fill_hybrid";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   HybridOptions options;
 
   Result<HybridMesh> operator()(const BuiltModel& surfaces, const ValidityReport& validity,

@@ -14,11 +14,12 @@ struct GridMapping {
   std::uint64_t operations = 0;  ///< of the integer optimisation
   std::int64_t doublings = 0;
   double energy_before = 0, energy = 0;
-  std::string transfer;                     ///< solve or imprint
-  std::vector<std::string> unmet_features{};  ///< that no integers could align
+  std::string transfer;                       ///< solve or imprint
+  std::vector<std::string> unmet_features{};  ///< that no integers could align, or give their rows
+  std::vector<FeatureEdge> loose_edges{};     ///< edges of the mesh that the map does not follow; not in mesh.edges
   template <class A>
   void archive(A& a) {
-    a(mesh, map, half_edges, operations, doublings, energy_before, energy, transfer, unmet_features);
+    a(mesh, map, half_edges, operations, doublings, energy_before, energy, transfer, unmet_features, loose_edges);
   }
 };
 
@@ -45,10 +46,11 @@ struct QuantizeStageOptions {
   }
 };
 
-/// Whole numbers for the map: quads between features and singular points (coudert2024 S36–S43).
+/// Whole numbers for the map: quads between features and singular points (coudert2024 S36–S43). Loose features are
+/// aligned where the descent can; if some are not, the grid is made half as fine, for imprint_curves divides it once.
 struct Quantize {
   static constexpr std::string_view name = "quantize";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   QuantizeStageOptions options;
 
   Result<Attempt<GridMapping>> operator()(const FeatureMesh& mesh, const Attempt<FieldAndMap>& seamless,

@@ -28,8 +28,8 @@ struct KeptTriangle {
 /// Surfaces at a chosen resolution, one patch per surface they came from.
 struct RemeshedSurfaces {
   TriangleSoup soup;
-  double edge_length_m = 0;       ///< asked for, where no entity has its own
-  std::uint64_t sites_asked = 0;  ///< on surfaces but the box
+  double edge_length_m = 0;                                             ///< asked for, where no entity has its own
+  std::uint64_t sites_asked = 0;                                        ///< on surfaces but the box
   std::uint64_t added_sites = 0, merged_points = 0, ball_failures = 0;  ///< where the dual of cells was taken
   std::uint64_t splits = 0, collapses = 0, flips = 0, moves = 0;
   std::vector<KeptTriangle> kept;
@@ -55,10 +55,11 @@ struct RemeshStageOptions {
                                 .description = "What the mesh keeps: all corners, lines, surfaces and regions, or what "
                                                "the resolution leaves of them, every change told",
                                 .words = {"all", "resolution"}});
-    visit(method, OptionField{.name = "method",
-                              .description = "How: by steps from the input's triangles, or as the dual of Voronoi cells; "
-                                             "auto: steps if all is to be kept, cells otherwise",
-                              .words = {"auto", "steps", "cells"}});
+    visit(method,
+          OptionField{.name = "method",
+                      .description = "How: by steps from the input's triangles, or as the dual of Voronoi cells; "
+                                     "auto: steps if all is to be kept, cells otherwise",
+                      .words = {"auto", "steps", "cells"}});
     visit(d_resolution_m, OptionField{.name = "d_resolution_m",
                                       .description = "With preserve = resolution: what lies nearer together is merged",
                                       .minimum = 0,
@@ -75,18 +76,18 @@ struct RemeshStageOptions {
 /// keeps all and leaves the mesh valid.
 struct Remesh {
   static constexpr std::string_view name = "remesh";
-  static constexpr int version = 5;
+  static constexpr int version = 6;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity,
                                       StageContext& context) const;
 };
 
-/// The same as the dual of the cells of sites (pellerin2014 chapter 4), which are added until the dual is valid, near the
-/// input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
+/// The same as the dual of the cells of sites (pellerin2014 chapter 4), which are added until the dual is valid, near
+/// the input and, if asked, keeps all. Where all is to be kept and the dual does not get there, `Remesh` takes over.
 struct RemeshByCells {
   static constexpr std::string_view name = "remesh_by_cells";
-  static constexpr int version = 5;
+  static constexpr int version = 6;
   RemeshStageOptions options;
 
   Result<RemeshedSurfaces> operator()(const BuiltModel& built, const ValidityReport& validity, const SiteSet& sites,

@@ -24,22 +24,39 @@ Failure unknown_name(const std::string& key, const std::string& name, const std:
                  "use the names that `strataflow check` prints"};
 }
 
-Result<std::vector<RegionRock>> rock_of(const std::vector<std::string>& regions,
+/// Per region the unit it lies in, called by its roof; empty without cells.
+std::vector<std::string> units_of(const HexGrid& hexes, const StratigraphicTets& layers) {
+  std::vector<std::string> units(hexes.mesh.region_names.size());
+  for (std::size_t cell = hexes.mesh.cell_count(); cell-- > 0;) {
+    if (hexes.is_dead[cell]) continue;
+    const auto roof = std::upper_bound(layers.level_w.begin(), layers.level_w.end(), hexes.cell_layer[cell]);
+    units[static_cast<std::size_t>(hexes.mesh.cell_region[cell])] =
+        layers.level_names[static_cast<std::size_t>(roof - layers.level_w.begin())];
+  }
+  return units;
+}
+
+/// A region's own value goes before that of its unit.
+Result<std::vector<RegionRock>> rock_of(const std::vector<std::string>& regions, const std::vector<std::string>& units,
                                         const SimulationGridStageOptions& options) {
-  const auto value = [](const std::map<std::string, double>& by_name, const std::string& region, double otherwise) {
-    const auto found = by_name.find(region);
-    return found == by_name.end() ? otherwise : found->second;
-  };
   std::vector<RegionRock> rock;
-  for (const std::string& name : regions)
-    rock.push_back({name, value(options.region_porosity, name, options.porosity),
-                    value(options.region_permeability_md, name, options.permeability_md),
-                    value(options.region_vertical_permeability_md, name, options.vertical_permeability_md)});
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    const auto value = [&](const std::map<std::string, double>& by_name, double otherwise) {
+      auto found = by_name.find(regions[r]);
+      if (found == by_name.end()) found = by_name.find(units[r]);
+      return found == by_name.end() ? otherwise : found->second;
+    };
+    rock.push_back({regions[r], value(options.region_porosity, options.porosity),
+                    value(options.region_permeability_md, options.permeability_md),
+                    value(options.region_vertical_permeability_md, options.vertical_permeability_md)});
+  }
   for (const auto& [key, by_name] : {std::pair{"region_porosity", &options.region_porosity},
                                      {"region_permeability_md", &options.region_permeability_md},
                                      {"region_vertical_permeability_md", &options.region_vertical_permeability_md}})
     for (const auto& [name, ignored] : *by_name)
-      if (std::find(regions.begin(), regions.end(), name) == regions.end()) return unknown_name(key, name, "region");
+      if (std::find(regions.begin(), regions.end(), name) == regions.end() &&
+          std::find(units.begin(), units.end(), name) == units.end())
+        return unknown_name(key, name, "region and no unit (called by the horizon that is its roof)");
   return rock;
 }
 
@@ -55,7 +72,8 @@ std::map<std::string, Vec3> places_of_wells(const InputData& input) {
   return places;
 }
 
-Result<std::vector<WellPlan>> wells_of(const SimulationGridStageOptions& options, const InputData& input) {
+Result<std::vector<WellPlan>> wells_of(const SimulationGridStageOptions& options, const InputData& input,
+                                       const std::vector<std::string>& regions, const std::vector<std::string>& units) {
   std::map<std::string, Vec3> places = places_of_wells(input);
   for (const auto& [name, x] : options.well_x_m) {
     const auto y = options.well_y_m.find(name);
@@ -77,7 +95,12 @@ Result<std::vector<WellPlan>> wells_of(const SimulationGridStageOptions& options
     if (in == std::string::npos || !plans.contains(name))
       return Failure{FailureCode::invalid_options, "hex.well_regions: '" + text + "' names no well and region",
                      "write for instance \"INJ in H2\""};
-    plans[name].regions.push_back(text.substr(in + 4));
+    const std::string place = text.substr(in + 4);
+    const std::size_t open_before = plans[name].regions.size();
+    if (std::find(regions.begin(), regions.end(), place) == regions.end())
+      for (std::size_t r = 0; r < regions.size(); ++r)
+        if (units[r] == place) plans[name].regions.push_back(regions[r]);
+    if (plans[name].regions.size() == open_before) plans[name].regions.push_back(place);  // a region, or no name
   }
   std::vector<WellPlan> wells;
   for (auto& [name, plan] : plans) {
@@ -95,16 +118,19 @@ Result<std::vector<WellPlan>> wells_of(const SimulationGridStageOptions& options
 }  // namespace
 
 Result<SimulationFiles> MakeSimulationGrid::operator()(const SmoothedHexes& smoothed, const CheckedHexes& checked,
-                                                       const InputData& input, StageContext& context) const {
+                                                       const LayeredSpace& space, const InputData& input,
+                                                       StageContext& context) const {
   const HexGrid& hexes = smoothed.hexes.grid;
-  Result<std::vector<RegionRock>> rock = rock_of(hexes.mesh.region_names, options);
+  const std::vector<std::string>& regions = hexes.mesh.region_names;
+  const std::vector<std::string> units = units_of(hexes, space.layers);
+  Result<std::vector<RegionRock>> rock = rock_of(regions, units, options);
   if (!rock) return rock.failure();
   std::vector<FaultTransmissibility> faults;
   for (const auto& [fault, multiplier] : options.fault_multiplier) faults.push_back({fault, multiplier});
-  Result<SimulationGrid> grid = build_simulation_grid(
-      hexes, *rock, faults, {layout_named(options.layout), options.pillar_tolerance_m});
+  Result<SimulationGrid> grid =
+      build_simulation_grid(hexes, *rock, faults, {layout_named(options.layout), options.pillar_tolerance_m});
   if (!grid) return grid.failure();
-  Result<std::vector<WellPlan>> plans = wells_of(options, input);
+  Result<std::vector<WellPlan>> plans = wells_of(options, input, regions, units);
   if (!plans) return plans.failure();
   Result<std::vector<SimulationWell>> wells = place_wells(hexes, *grid, *plans);
   if (!wells) return wells.failure();

@@ -46,42 +46,49 @@ struct SimulationGridStageOptions {
                                      "each column pillars of its own and tells all lateral contacts; blocks packs "
                                      "rectangles; automatic is native where the plan allows it, else unstructured",
                       .words = {"automatic", "native", "blocks", "unstructured"}});
-    visit(pillar_tolerance_m,
-          OptionField{.name = "pillar_tolerance_m",
-                      .description = "How far a corner may lie from the straight pillar of its column before the column "
-                                     "is split; absent: 1 % of the mean edge",
-                      .minimum = 0,
-                      .exclusive_minimum = true});
-    visit(porosity, OptionField{.name = "porosity", .description = "Of all regions not named", .minimum = 0, .maximum = 1});
+    visit(
+        pillar_tolerance_m,
+        OptionField{.name = "pillar_tolerance_m",
+                    .description = "How far a corner may lie from the straight pillar of its column before the column "
+                                   "is split; absent: 1 % of the mean edge",
+                    .minimum = 0,
+                    .exclusive_minimum = true});
+    visit(porosity,
+          OptionField{.name = "porosity", .description = "Of all regions not named", .minimum = 0, .maximum = 1});
     visit(permeability_md, OptionField{.name = "permeability_md",
                                        .description = "Along layers, of all regions not named, millidarcy",
                                        .minimum = 0});
     visit(vertical_permeability_md, OptionField{.name = "vertical_permeability_md",
                                                 .description = "Across layers, of all regions not named, millidarcy",
                                                 .minimum = 0});
-    visit(region_porosity, OptionField{.name = "region_porosity",
-                                       .description = "Porosity of single regions, by name",
-                                       .minimum = 0,
-                                       .maximum = 1});
-    visit(region_permeability_md, OptionField{.name = "region_permeability_md",
-                                              .description = "Permeability along layers of single regions, by name",
-                                              .minimum = 0});
+    visit(region_porosity,
+          OptionField{.name = "region_porosity",
+                      .description = "Porosity of single regions, or of all in a unit, by name; a unit is called "
+                                     "by the horizon that is its roof",
+                      .minimum = 0,
+                      .maximum = 1});
+    visit(region_permeability_md,
+          OptionField{.name = "region_permeability_md",
+                      .description = "Permeability along layers of single regions or units, by name",
+                      .minimum = 0});
     visit(region_vertical_permeability_md,
           OptionField{.name = "region_vertical_permeability_md",
-                      .description = "Permeability across layers of single regions, by name",
+                      .description = "Permeability across layers of single regions or units, by name",
                       .minimum = 0});
-    visit(fault_multiplier, OptionField{.name = "fault_multiplier",
-                                        .description = "What of a flow passes faults, by name: { F1 = 0.001 }; 1 if not named",
-                                        .minimum = 0});
-    visit(deck, OptionField{.name = "deck", .description = "Write a deck that OPM's flow runs: hexes.data beside the grid"});
-    visit(deck_fluid, OptionField{.name = "deck_fluid",
-                                  .description = "co2_brine needs a simulator with CO2STORE; gas_water is an immiscible "
-                                                 "stand-in",
-                                  .words = {"co2_brine", "gas_water"}});
-    visit(deck_years, OptionField{.name = "deck_years",
-                                  .description = "How long the deck runs",
-                                  .minimum = 0,
-                                  .exclusive_minimum = true});
+    visit(fault_multiplier,
+          OptionField{.name = "fault_multiplier",
+                      .description = "What of a flow passes faults, by name: { F1 = 0.001 }; 1 if not named",
+                      .minimum = 0});
+    visit(deck,
+          OptionField{.name = "deck", .description = "Write a deck that OPM's flow runs: hexes.data beside the grid"});
+    visit(deck_fluid,
+          OptionField{.name = "deck_fluid",
+                      .description = "co2_brine needs a simulator with CO2STORE; gas_water is an immiscible "
+                                     "stand-in",
+                      .words = {"co2_brine", "gas_water"}});
+    visit(deck_years,
+          OptionField{
+              .name = "deck_years", .description = "How long the deck runs", .minimum = 0, .exclusive_minimum = true});
     visit(deck_pressure_bar, OptionField{.name = "deck_pressure_bar",
                                          .description = "Initial pressure at the highest cell",
                                          .minimum = 0,
@@ -90,9 +97,9 @@ struct SimulationGridStageOptions {
                                           .description = "Temperature everywhere, degrees Celsius",
                                           .minimum = 0,
                                           .maximum = 200});
-    visit(deck_rock_compressibility_per_bar, OptionField{.name = "deck_rock_compressibility_per_bar",
-                                                         .description = "Of the pores, per bar",
-                                                         .minimum = 0});
+    visit(
+        deck_rock_compressibility_per_bar,
+        OptionField{.name = "deck_rock_compressibility_per_bar", .description = "Of the pores, per bar", .minimum = 0});
     visit(well_x_m, OptionField{.name = "well_x_m",
                                 .description = "Where wells stand, by name, in the input's coordinates; wells of an "
                                                "[[input]] with role = \"well\" have their place from there"});
@@ -107,8 +114,10 @@ struct SimulationGridStageOptions {
                       .description = "What wells inject, by name; wells that are not named here produce; 0: as much as "
                                      "the pressure lets",
                       .minimum = 0});
-    visit(well_regions, OptionField{.name = "well_regions",
-                                    .description = "Where wells are open, each \"INJ in H2\"; everywhere if not named"});
+    visit(well_regions,
+          OptionField{
+              .name = "well_regions",
+              .description = "Where wells are open, each \"INJ in H2\", a region or unit; everywhere if not named"});
   }
 };
 
@@ -132,8 +141,8 @@ struct MakeSimulationGrid {
   static constexpr int version = 1;
   SimulationGridStageOptions options;
 
-  Result<SimulationFiles> operator()(const SmoothedHexes& hexes, const CheckedHexes& checked, const InputData& input,
-                                     StageContext& context) const;
+  Result<SimulationFiles> operator()(const SmoothedHexes& hexes, const CheckedHexes& checked, const LayeredSpace& space,
+                                     const InputData& input, StageContext& context) const;
 };
 
 }  // namespace strataflow

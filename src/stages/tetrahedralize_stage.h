@@ -11,7 +11,7 @@ namespace strataflow {
 /// model is sealed; what happened to difficult regions is in the mesh's changes.
 struct Tetrahedralize {
   static constexpr std::string_view name = "tetrahedralize";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   TetrahedralizeOptions options;
 
   Result<VolumeMesh> operator()(const BuiltModel& built, const ValidityReport& validity, StageContext& context) const;

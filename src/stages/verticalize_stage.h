@@ -25,23 +25,25 @@ struct VerticalizeOptions {
     visit(follow_horizon_lines, OptionField{.name = "follow_horizon_lines",
                                             .description = "Edges of cells follow the lines where horizons meet"});
     visit(untangling_steps,
-          OptionField{.name = "untangling_steps",
-                      .description = "Steps of the optimisation that turns tetrahedra back where faults lean far, at most",
-                      .minimum = 0,
-                      .maximum = 100000});
+          OptionField{
+              .name = "untangling_steps",
+              .description = "Steps of the optimisation that turns tetrahedra back where faults lean far, at most",
+              .minimum = 0,
+              .maximum = 100000});
   }
 };
 
 /// The plan of a model in which faults and sides stand upright (coudert2024 S8, S16–S19).
 struct Verticalize {
   static constexpr std::string_view name = "verticalize";
-  static constexpr int version = 2;
+  static constexpr int version = 4;
   VerticalizeOptions options;
 
   Result<UprightModel> operator()(const VolumeMesh& tets, StageContext& context) const;
 };
 
-/// The curves that the plan of quads follows: traces of faults and sides of the upright model, and the wells of the input.
+/// The curves that the plan of quads follows: traces of faults and sides of the upright model, and the wells of the
+/// input.
 struct TakePlanLines {
   static constexpr std::string_view name = "take_plan_lines";
   static constexpr int version = 1;

@@ -30,7 +30,8 @@ T made(Result<T> result) {
 const VolumeMesh& dipping() {
   static const VolumeMesh mesh = [] {
     StageContext context("test", 1);
-    const BuiltModel built = *build_structural_model(*generate_reference_model("dipping-faults", {.resolution_m = 150}));
+    const BuiltModel built =
+        *build_structural_model(*generate_reference_model("dipping-faults", {.resolution_m = 150}));
     TetrahedralizeOptions tets;
     tets.radius_edge_ratio = 1.8;
     return made(Tetrahedralize{tets}(built, *CheckValidity{}(built, context), context));
@@ -59,7 +60,7 @@ Checked checked(const ExtrudedHexes& extruded, const LayeredSpace& space, const 
   EXPECT_EQ(smoothed.hexes.grid.mesh.points, extruded.grid.mesh.points);
   Checked result;
   result.hexes = made(CheckHexes{}(smoothed, space, plan, context));
-  result.files = made(MakeSimulationGrid{simulation}(smoothed, result.hexes, {}, context));
+  result.files = made(MakeSimulationGrid{simulation}(smoothed, result.hexes, space, {}, context));
   result.warnings = context.warnings();
   return result;
 }
@@ -68,7 +69,8 @@ TEST(BaselineStages, pillars_follow_faults_in_a_native_layout) {
   StageContext context("test", 1);
   const LayeredSpace space = made(FindStratigraphicFunction{{.layers = 2}}(upright(), context));
   const InputData lines = made(TakePlanLines{}(upright(), {}, context));
-  const MeshedQuads plan = made(CutPillars{}(made(PlanProblem{{.plan = {.edge_length_m = 150}}}(lines, context)), context));
+  const MeshedQuads plan =
+      made(CutPillars{}(made(PlanProblem{{.plan = {.edge_length_m = 150}}}(lines, context)), context));
   EXPECT_EQ(plan.quality.interior_irregular, 0u);
   SimulationGridStageOptions simulation;
   simulation.layout = "native";

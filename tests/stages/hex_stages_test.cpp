@@ -65,7 +65,7 @@ const Grid& erosion() {
 Result<SimulationFiles> simulated(const Grid& grid, const SimulationGridStageOptions& options,
                                   const InputData& input = {}) {
   StageContext context;
-  return MakeSimulationGrid{options}(grid.hexes, *checked(grid), input, context);
+  return MakeSimulationGrid{options}(grid.hexes, *checked(grid), grid.space, input, context);
 }
 
 TEST(HexStages, layers_follow_dipping_faults_with_all_cells_valid) {
@@ -125,7 +125,8 @@ TEST(HexStages, wells_shape_the_plan_where_they_meet_the_top) {
   const UprightModel model = upright("dipping-faults");
   InputData input;
   input.point_sets = {{"P1", Role::well, {{160, 140, 0}}, {}}, {"far", Role::well, {{1e6, 0, 0}}, {}}};
-  input.lines = {{"W", Role::well, {{1000, 500, 0}, {1000, 500, -900}}, false}, {"fence", Role::curve, {{0, 0, 0}, {1, 1, 0}}, false}};
+  input.lines = {{"W", Role::well, {{1000, 500, 0}, {1000, 500, -900}}, false},
+                 {"fence", Role::curve, {{0, 0, 0}, {1, 1, 0}}, false}};
   StageContext context;
   const InputData plan = made(TakePlanLines{}(model, input, context));
   EXPECT_EQ(plan.lines.size(), model.lines.size());
@@ -175,6 +176,34 @@ TEST(HexStages, a_well_of_the_input_stands_where_its_first_point_is) {
   const SimulationFiles files = made(simulated(dipping(), options, input));
   ASSERT_EQ(files.wells.size(), 1u);
   EXPECT_FALSE(files.wells[0].is_injector);
+}
+
+TEST(HexStages, rock_and_wells_may_be_named_by_unit_and_a_region_goes_before_its_unit) {
+  SimulationGridStageOptions options;
+  options.region_porosity = {{"Top", 0.05}, {"H1", 0.3}};
+  const SimulationFiles by_unit = made(simulated(dipping(), options));
+  std::size_t caps = 0, below = 0;
+  std::string one_cap;
+  for (const RegionRock& rock : by_unit.grid.rock) {
+    caps += rock.porosity == 0.05;
+    below += rock.porosity == 0.3;
+    if (rock.porosity == 0.05) one_cap = rock.region;
+  }
+  EXPECT_GT(caps, 1u);  // faults part the unit into several regions
+  EXPECT_GT(below, 1u);
+  options.region_porosity[one_cap] = 0.5;
+  for (const RegionRock& rock : made(simulated(dipping(), options)).grid.rock)
+    EXPECT_EQ(rock.porosity == 0.5, rock.region == one_cap) << rock.region;
+
+  options = {};
+  options.well_x_m = {{"W", 300}};
+  options.well_y_m = {{"W", 300}};
+  options.well_pressure_bar = {{"W", 60}};
+  const std::size_t everywhere = made(simulated(dipping(), options)).wells.at(0).cells.size();
+  options.well_regions = {"W in Top"};
+  const std::size_t in_cap = made(simulated(dipping(), options)).wells.at(0).cells.size();
+  EXPECT_GT(in_cap, 0u);
+  EXPECT_LT(in_cap, everywhere);
 }
 
 TEST(HexStages, names_that_are_nothing_are_told) {

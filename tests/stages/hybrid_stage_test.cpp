@@ -78,5 +78,24 @@ TEST(FillHybridStage, gives_a_mesh_that_passes_the_check_and_can_be_stored) {
   EXPECT_EQ(archived(*restored), archived(*hybrid));
 }
 
+TEST(FillHybridStage, sets_as_many_sites_inside_as_asked_for) {
+  const Sample sample = sample_of("smooth-closed", 20);
+  StageContext context = seeded();
+  HybridOptions options;
+  options.sites = 120;
+  const Result<RemeshedSurfaces> remeshed = RemeshHybrid{options}(sample.built, sample.validity, context);
+  ASSERT_TRUE(remeshed) << remeshed.failure().what;
+  const BuiltModel surfaces = *BuildSurfaces{}(*remeshed, context);
+  const ValidityReport validity = *CheckValidity{}(surfaces, context);
+  for (const std::int64_t asked : {0, 30}) {
+    options.interior_sites = asked;
+    const Result<HybridMesh> hybrid = FillHybrid{options}(surfaces, validity, context);
+    ASSERT_TRUE(hybrid) << hybrid.failure().what;
+    EXPECT_EQ(hybrid->report.interior_sites, static_cast<std::uint64_t>(asked));
+  }
+  options.interior_sites.reset();
+  EXPECT_GT(FillHybrid{options}(surfaces, validity, context)->report.interior_sites, 30u);
+}
+
 }  // namespace
 }  // namespace strataflow

@@ -107,6 +107,7 @@ void expect_good(const Result<Made>& made) {
 TEST(QuadInputs, the_spe11_sections) {
   const fs::path folder = data_folder() / "section2d";
   if (!fs::exists(folder)) GTEST_SKIP() << "no data at " << folder;
+  // A wedge of 4.3° in the first: where only one quad fits along its sides, sin 4.3° = 0.075 is all there is.
   for (const auto& [name, edge_m] : {std::pair("spe11a.geo", 0.05), std::pair("spe11b.geo", 80.0)}) {
     const auto input = read_all({{folder / name, {}}});
     ASSERT_TRUE(input) << describe(input.failure());
@@ -114,6 +115,7 @@ TEST(QuadInputs, the_spe11_sections) {
     expect_good(made);
     if (made) {
       EXPECT_EQ(made->problem.features.size(), 22u) << name;
+      EXPECT_GE(made->quads.quality.scaled_jacobian.minimum, 0.15) << name;
     }
   }
 }
@@ -146,8 +148,8 @@ TEST(QuadInputs, branets_and_drogon_with_every_node_on_its_curve) {
 TEST(QuadInputs, drogon_along_the_traces_of_its_fault_surfaces) {
   const fs::path folder = data_folder() / "drogon";
   if (!fs::exists(folder)) GTEST_SKIP() << "no data at " << folder;
-  const auto input = read_all({{folder / "outline.pol", {{}, "outline"}},
-                               {folder / "faults_F1-F6.ts", {{}, "fault", false, true}}});
+  const auto input =
+      read_all({{folder / "outline.pol", {{}, "outline"}}, {folder / "faults_F1-F6.ts", {{}, "fault", false, true}}});
   ASSERT_TRUE(input) << describe(input.failure());
   const auto made = quads_on(*input, 100);
   expect_good(made);
@@ -184,7 +186,8 @@ TEST(QuadInputs, the_horizons_of_cloudspin_along_their_faults) {
   ASSERT_TRUE(model) << describe(model.failure());
   PlanSurfacesOptions options;
   options.problem.plan.edge_length_m = 500;
-  for (const auto& [horizon, features] : {std::pair("KOBE", 15u), std::pair("HOUSTON", 16u), std::pair("CARACAS", 9u)}) {
+  for (const auto& [horizon, features] :
+       {std::pair("KOBE", 15u), std::pair("HOUSTON", 16u), std::pair("CARACAS", 9u)}) {
     options.surfaces = {horizon};
     const auto made = quads_of(PlanSurfaces{options}(*model, context));
     expect_good(made);
@@ -199,7 +202,8 @@ TEST(QuadInputs, the_horizons_of_cloudspin_along_their_faults) {
   EXPECT_NE(unknown.failure().remedy.find("KOBE"), std::string::npos);
 }
 
-/// T25, T29: closed surfaces, smooth and with sharp edges, at several sizes of quads; seamless and quantized every time.
+/// T25, T29: closed surfaces, smooth and with sharp edges, at several sizes of quads; seamless and quantized every
+/// time.
 TEST(QuadInputs, machine_parts_and_smooth_shapes) {
   struct Part {
     const char* name;
@@ -218,6 +222,25 @@ TEST(QuadInputs, machine_parts_and_smooth_shapes) {
     if (part.least_irregular == 0) {
       EXPECT_EQ(made->quads.quality.interior_irregular, 0u);
     }
+  }
+}
+
+TEST(QuadInputs, faces_of_flat_and_of_pointed_bodies_alone_and_together) {
+  for (const std::string body : {"slab", "wedge"}) {
+    const auto input = shape(body);
+    ASSERT_TRUE(input) << describe(input.failure());
+    StageContext context("test");
+    const Result<BuiltModel> model = BuildModel{}(*input, context);
+    ASSERT_TRUE(model) << describe(model.failure());
+    PlanSurfacesOptions options;
+    for (const double edge_m : {80.0, 40.0})
+      for (const std::vector<std::string>& faces :
+           {std::vector<std::string>{"Top"}, std::vector<std::string>{"Top", "Bottom", "North", "South", "West"}}) {
+        SCOPED_TRACE(body + " at " + std::to_string(edge_m) + ", faces " + std::to_string(faces.size()));
+        options.problem.plan.edge_length_m = edge_m;
+        options.surfaces = faces;
+        expect_good(quads_of(PlanSurfaces{options}(*model, context)));
+      }
   }
 }
 

@@ -38,7 +38,8 @@ TEST(PlanSites, sites_of_the_box_come_on_top_at_the_same_spacing) {
 
 TEST(PlanSites, an_entity_may_have_edges_of_its_own) {
   const Sample sample = sample_of("A1");
-  const SitePlan plan = *plan_sites(sample.built.model, {.target_edge_length_m = 50, .entity_edge_length_m = {{"H2", 25}}});
+  const SitePlan plan =
+      *plan_sites(sample.built.model, {.target_edge_length_m = 50, .entity_edge_length_m = {{"H2", 25}}});
   const SitePlan even = *plan_sites(sample.built.model, {.target_edge_length_m = 50});
   EXPECT_GT(plan.sites, even.sites * 3 / 2);  // one of three horizons has four times as many
   const auto unknown = plan_sites(sample.built.model, {.entity_edge_length_m = {{"H9", 25}}});
@@ -68,7 +69,7 @@ TEST(Remesh, keeps_everything_and_names_regions_alike) {
   EXPECT_GT(report->after.triangles.mean_quality, 0.85);
 }
 
-TEST(RemeshByCells, that_must_keep_all_falls_back_to_local_steps_where_the_dual_cannot) {
+TEST(RemeshByCells, keeps_all_though_its_sites_are_far_too_few) {
   const Sample sample = sample_of("A4");
   StageContext context;
   RemeshByCells remesh;
@@ -77,6 +78,27 @@ TEST(RemeshByCells, that_must_keep_all_falls_back_to_local_steps_where_the_dual_
   const SiteSet few = sites_of(sample, remesh.options.sites);
   const Result<RemeshedSurfaces> remeshed = remesh(sample.built, sample.validity, few, context);
   ASSERT_TRUE(remeshed) << remeshed.failure().what;
+  EXPECT_GT(remeshed->added_sites, 0u);
+  const BuiltModel after = *BuildSurfaces{}(*remeshed, context);
+  EXPECT_TRUE(CompareSurfaces{}(sample.built, after, context));
+}
+
+TEST(RemeshByCells, that_must_keep_all_falls_back_to_local_steps_where_the_dual_cannot) {
+  const Sample sample = sample_of("A1");
+  StageContext context, by_steps;
+  RemeshByCells remesh;
+  remesh.options.sites.sites = 20;
+  remesh.options.sites.iterations = 2;
+  remesh.options.d_resolution_m = 400;  // merges what is to be kept
+  const SiteSet few = sites_of(sample, remesh.options.sites);
+  const Result<RemeshedSurfaces> remeshed = remesh(sample.built, sample.validity, few, context);
+  ASSERT_TRUE(remeshed) << remeshed.failure().what;
+  ASSERT_EQ(context.warnings().size(), 1u);
+  EXPECT_EQ(context.warnings()[0].kind, "kept_triangulation");
+  EXPECT_NE(context.warnings()[0].what.find("the dual is still not valid"), std::string::npos)
+      << context.warnings()[0].what;
+  EXPECT_TRUE(remeshed->changes.empty());
+  EXPECT_EQ(remeshed->soup.points, Remesh{remesh.options}(sample.built, sample.validity, by_steps)->soup.points);
   const BuiltModel after = *BuildSurfaces{}(*remeshed, context);
   EXPECT_TRUE(CompareSurfaces{}(sample.built, after, context));
 }

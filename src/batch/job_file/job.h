@@ -24,10 +24,10 @@
 #include "stages/remove_scars_stage.h"
 #include "stages/seal_stage.h"
 #include "stages/simplify_borders_stage.h"
-#include "stages/volume_frames_stage.h"
 #include "stages/simulation_grid_stage.h"
 #include "stages/stratigraphic_function_stage.h"
 #include "stages/verticalize_stage.h"
+#include "stages/volume_frames_stage.h"
 
 namespace strataflow {
 
@@ -72,10 +72,12 @@ struct JobInput {
                                                 "(overshoot if negative); absent: sealed",
                                  .minimum = -0.2,
                                  .maximum = 0.2});
-    visit(sticks, OptionField{.name = "sticks",
-                              .description = "The file's lines are sticks of one fault: their first points become its trace"});
-    visit(traces, OptionField{.name = "traces",
-                              .description = "The upper borders of the file's surfaces are taken in their place, as traces"});
+    visit(sticks,
+          OptionField{.name = "sticks",
+                      .description = "The file's lines are sticks of one fault: their first points become its trace"});
+    visit(traces,
+          OptionField{.name = "traces",
+                      .description = "The upper borders of the file's surfaces are taken in their place, as traces"});
   }
 };
 
@@ -86,10 +88,10 @@ struct OutputOptions {
   std::optional<std::string> from;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
-    visit(products,
-          OptionField{.name = "products",
-                      .description = "What to make; only what a product needs runs",
-                      .words = {"model", "voronoi", "surfaces", "tets", "hybrid", "quads", "hexes", "frames", "complexity"}});
+    visit(products, OptionField{.name = "products",
+                                .description = "What to make; only what a product needs runs",
+                                .words = {"model", "voronoi", "surfaces", "tets", "hybrid", "quads", "hexes", "frames",
+                                          "complexity"}});
     visit(formats, OptionField{.name = "formats",
                                .description = "File formats of the products; vtk (vtp, vtu) is always written",
                                .words = {"vtk", "gocad", "medit", "gmsh", "obj", "abaqus", "grdecl"}});
@@ -145,6 +147,7 @@ struct QuadOptions {
   QuantizeStageOptions integers;
   ExtractQuadsOptions quads;
   QuadFallback fallback;
+  LooseCurves curves;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     problem.visit_fields(visit);
@@ -153,6 +156,7 @@ struct QuadOptions {
     integers.visit_own(visit);
     quads.visit_own(visit);
     fallback.visit_fields(visit);
+    curves.visit_fields(visit);
   }
 };
 
@@ -167,11 +171,12 @@ struct HexOptions {
   SimulationGridStageOptions simulation;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
-    visit(method, OptionField{.name = "method",
-                              .description = "conforming: quads extruded, every fault followed; for comparison pillars: "
-                                             "rows of cells along faults that fit I or J; stairs: upright columns that "
-                                             "pass faults in steps",
-                              .words = {"conforming", "pillars", "stairs"}});
+    visit(method,
+          OptionField{.name = "method",
+                      .description = "conforming: quads extruded, every fault followed; for comparison pillars: "
+                                     "rows of cells along faults that fit I or J; stairs: upright columns that "
+                                     "pass faults in steps",
+                      .words = {"conforming", "pillars", "stairs"}});
     visit(edge_length_m, OptionField{.name = "edge_length_m",
                                      .description = "Wanted length of the cells' edges seen from above; absent: "
                                                     "quad.edge_length_m",

@@ -132,7 +132,8 @@ std::string surfaces_section(const RemeshedSurfaces& remeshed, const ValidityRep
   std::string html = "<h2>Remeshed surfaces</h2>\n";
   html += html_table(
       {"", "before", "after"},
-      {row("corners", count(before.corners), count(after.corners)), row("lines", count(before.lines), count(after.lines)),
+      {row("corners", count(before.corners), count(after.corners)),
+       row("lines", count(before.lines), count(after.lines)),
        row("surfaces", count(before.surfaces), count(after.surfaces)),
        row("regions", count(before.regions), count(after.regions)),
        row("vertices", count(before.vertices), count(after.vertices)),
@@ -149,8 +150,8 @@ std::string surfaces_section(const RemeshedSurfaces& remeshed, const ValidityRep
                           {"the same, % of the diagonal", readable_number(100 * report.hausdorff.ratio())},
                           {"intersecting triangle pairs", count(validity.intersecting_triangle_pairs)},
                           {"triangles that keep an angle below 5°", count(remeshed.kept.size())}});
-  html += "<div class=\"row\">\n" + svg_histogram(after.triangles.angle_deg) +
-          svg_histogram(after.triangles.quality) + "</div>\n";
+  html += "<div class=\"row\">\n" + svg_histogram(after.triangles.angle_deg) + svg_histogram(after.triangles.quality) +
+          "</div>\n";
   return html + changes_table(remeshed.changes);
 }
 
@@ -197,10 +198,10 @@ std::string complexity_section(const ComplexityReport& report) {
                       readable_number(fault.throw_m.maximum), readable_number(fault.horizon_angle_deg.minimum),
                       count(fault.faults.size()), readable_number(fault.free_border_m)});
   if (!faults.empty())
-    html += "<h3>Faults</h3>\n" + html_table({"fault", "strike, °", "dip, °", "layers affected", "median throw, m",
-                                              "largest throw, m", "smallest angle with a horizon, °", "faults met",
-                                              "free border, m"},
-                                             faults);
+    html += "<h3>Faults</h3>\n" +
+            html_table({"fault", "strike, °", "dip, °", "layers affected", "median throw, m", "largest throw, m",
+                        "smallest angle with a horizon, °", "faults met", "free border, m"},
+                       faults);
   Rows needs;
   for (const RegionNeed& need : report.needs)
     needs.push_back({need.name, readable_number(need.volume_m3),
@@ -216,6 +217,10 @@ std::string quads_section(const FeatureMesh& problem, const MeshedQuads& quads, 
   if (!quads.why_subdivided.empty())
     html += "<p class=\"note\">Every triangle was cut into three quads, for no map was found: " +
             escaped_html(quads.why_subdivided) + "</p>\n";
+  for (const std::string& curve : quads.imprinted)
+    html += "<p class=\"note\">'" + escaped_html(curve) +
+            "' was laid into the quads, which were divided once, for no map follows it; " +
+            count(quads.created.size()) + " irregular vertices came of it.</p>\n";
   html += html_table({}, {{"quads", count(quads.mesh.quads.size())},
                           {"vertices", count(quads.mesh.points.size())},
                           {"wanted edge length, m", readable_number(problem.edge_length_m)},
@@ -237,8 +242,8 @@ std::string quads_section(const FeatureMesh& problem, const MeshedQuads& quads, 
   if (grid && grid->why_not.empty())
     html += html_table({}, {{"half-edges of the decimated map", count(grid->value.half_edges)},
                             {"integer operations", count(grid->value.operations)},
-                            {"energy before, after", readable_number(grid->value.energy_before) + ", " +
-                                                         readable_number(grid->value.energy)},
+                            {"energy before, after",
+                             readable_number(grid->value.energy_before) + ", " + readable_number(grid->value.energy)},
                             {"transfer", grid->value.transfer}});
   html += "<div class=\"row\">\n" + svg_histogram(quality.scaled_jacobian) + svg_histogram(quality.angle_deg) +
           svg_histogram(quality.edge_length_m) + "</div>\n";
@@ -261,8 +266,8 @@ std::string volume_section(const std::string& title, const VolumeMesh& mesh, con
     quantiles.push_back({readable_number(100 * angles.all[i].share), readable_number(angles.all[i].angle_deg),
                          readable_number(angles.outside_wedges[i].angle_deg)});
   if (!quantiles.empty())
-    html += html_table({"% of dihedral angles", "at most, °", "outside wedges, °"}, quantiles) +
-            "<p class=\"note\">" + count(angles.cells_in_wedges) +
+    html += html_table({"% of dihedral angles", "at most, °", "outside wedges, °"}, quantiles) + "<p class=\"note\">" +
+            count(angles.cells_in_wedges) +
             " cells lie in wedges, where two surfaces meet at less than 20°; the smallest angle of the others is " +
             readable_number(angles.min_outside_wedges_deg) + "°.</p>\n";
   Rows regions;
@@ -279,18 +284,19 @@ std::string volume_section(const std::string& title, const VolumeMesh& mesh, con
 std::string hybrid_section(const HybridMesh& hybrid, const VolumeQualityReport& quality) {
   const HybridReport& report = hybrid.report;
   std::string html = volume_section("Hybrid mesh", hybrid.mesh, quality);
-  html += html_table({}, {{"prisms", count(quality.prisms)},
-                          {"pyramids", count(quality.pyramids)},
-                          {"tetrahedra", count(quality.tetrahedra)},
-                          {"cells between facing triangles", count(report.cells_from_voronoi)},
-                          {"cells of the fill", count(report.cells_from_fill)},
-                          {"base edge : height of prisms, mean", readable_number(report.mean_anisotropy_ratio)},
-                          {"pairs of facing triangles", count(report.facing.pairs)},
-                          {"of them given up", count(report.dropped.isolated + report.dropped.inverted +
-                                                     report.dropped.nonconforming + report.dropped.crossing +
-                                                     report.dropped.unfilled)},
-                          {"candidates that were no cells", count(report.facing.turned + report.facing.inverted +
-                                                                  report.facing.flat)}});
+  html += html_table(
+      {},
+      {{"prisms", count(quality.prisms)},
+       {"pyramids", count(quality.pyramids)},
+       {"tetrahedra", count(quality.tetrahedra)},
+       {"cells between facing triangles", count(report.cells_from_segments)},
+       {"tetrahedra dual to Voronoi vertices", count(report.cells_from_vertices)},
+       {"cells of the fill", count(report.cells_from_fill)},
+       {"base edge : height of prisms, mean", readable_number(report.mean_anisotropy_ratio)},
+       {"pairs of facing triangles", count(report.facing.pairs)},
+       {"of them given up", count(report.dropped.isolated + report.dropped.inverted + report.dropped.nonconforming +
+                                  report.dropped.crossing + report.dropped.unfilled)},
+       {"candidates that were no cells", count(report.facing.turned + report.facing.inverted + report.facing.flat)}});
   return html;
 }
 
@@ -312,7 +318,9 @@ std::string frames_section(const FramedMesh& frames) {
                           {"singular curves", count(curves.size())},
                           {"their length, m", readable_number(whole_m)}});
   if (frames.smallest_determinant < 0.1)
-    html += "<p class=\"note\">Somewhere three directions nearly lie in a plane: frames.orthogonality keeps them apart.</p>\n";
+    html +=
+        "<p class=\"note\">Somewhere three directions nearly lie in a plane: frames.orthogonality keeps them "
+        "apart.</p>\n";
   constexpr std::size_t most_curves = 20;
   std::stable_sort(curves.begin(), curves.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
   const auto place = [&](const Vec3& p) {
@@ -326,8 +334,7 @@ std::string frames_section(const FramedMesh& frames) {
                     place(line->points.back())});
   }
   if (!rows.empty()) html += html_table({"singular curve, m", "", "from", "to"}, rows);
-  if (curves.size() > most_curves)
-    html += "<p class=\"note\">The others are in frames_singular.vtp.</p>\n";
+  if (curves.size() > most_curves) html += "<p class=\"note\">The others are in frames_singular.vtp.</p>\n";
   Distribution angles("angle_between_directions_deg", 0, 90, 18);
   for (std::size_t c = 0; c < frames.mesh.cell_count(); ++c)
     for (std::size_t i = 0; i < frames.directions.size(); ++i)
@@ -343,21 +350,23 @@ std::string frames_section(const FramedMesh& frames) {
 std::string hexes_section(const JobReport& report) {
   const HexGrid& grid = report.smoothed_hexes->hexes.grid;
   std::string html = volume_section("Hexahedra", report.hexes->live.mesh, report.hexes->quality);
-  Rows rows = {{"method", report.job->hex.method},
-               {"layers", count(grid.layers)},
-               {"quads of the plan", count(grid.plan.quads.size())},
-               {"singular vertices of the plan", count(report.hexes->singular_vertices)},
-               {"cells without volume", count(report.smoothed_hexes->hexes.report.dead)},
-               {"cells that end in an edge", count(report.hexes->audit.wedges)},
-               {"smallest scaled Jacobian before smoothing", readable_number(report.smoothed_hexes->smoothing.min_before)},
-               {"after", readable_number(report.hexes->quality.min_scaled_jacobian)}};
+  Rows rows = {
+      {"method", report.job->hex.method},
+      {"layers", count(grid.layers)},
+      {"quads of the plan", count(grid.plan.quads.size())},
+      {"singular vertices of the plan", count(report.hexes->singular_vertices)},
+      {"cells without volume", count(report.smoothed_hexes->hexes.report.dead)},
+      {"cells that end in an edge", count(report.hexes->audit.wedges)},
+      {"smallest scaled Jacobian before smoothing", readable_number(report.smoothed_hexes->smoothing.min_before)},
+      {"after", readable_number(report.hexes->quality.min_scaled_jacobian)}};
   if (report.simulation) {
     const SimulationGridReport& simulation = report.simulation->grid.report;
     rows.push_back({"layout for simulators", simulation.layout});
     if (!simulation.reason.empty()) rows.push_back({"not native because", simulation.reason});
     rows.push_back({"active cells", count(simulation.active_cells)});
-    rows.push_back({"connections beside those by index", count(simulation.lateral_connections + simulation.vertical_connections +
-                                                              simulation.fault_connections)});
+    rows.push_back(
+        {"connections beside those by index",
+         count(simulation.lateral_connections + simulation.vertical_connections + simulation.fault_connections)});
     rows.push_back({"largest deviation from straight pillars, m", readable_number(simulation.largest_deviation_m)});
   }
   return html + html_table({}, rows);
@@ -378,7 +387,8 @@ std::string report_html(const JobReport& report) {
             pictures_html(report.surfaces_pictures);
   if (report.complexity) body += complexity_section(*report.complexity);
   if (report.quads && report.plan_problem)
-    body += quads_section(*report.plan_problem, *report.quads, report.grid.get()) + pictures_html(report.quads_pictures);
+    body +=
+        quads_section(*report.plan_problem, *report.quads, report.grid.get()) + pictures_html(report.quads_pictures);
   if (report.tets && report.tets_quality)
     body += volume_section("Tetrahedra", *report.tets, *report.tets_quality) + pictures_html(report.tets_pictures);
   if (report.hybrid && report.hybrid_quality)

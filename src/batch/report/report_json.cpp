@@ -1,9 +1,11 @@
 #include "batch/report/report_json.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "batch/program_version.h"
 #include "batch/report/complexity_json.h"
+#include "kernels/quads/extraction/check_quads.h"
 #include "kernels/topology/validity/check_validity.h"
 #include "stages/all_stages.h"
 
@@ -212,8 +214,8 @@ Json mesh_json(const SurfaceMeshReport& mesh) {
           {"contacts", contacts_json(mesh.contacts)}};
 }
 
-Json surfaces_block(const SiteSet* sites, const RemeshedSurfaces& remeshed, const BuiltModel& built, const ValidityReport& validity,
-                    const SurfacesReport& report) {
+Json surfaces_block(const SiteSet* sites, const RemeshedSurfaces& remeshed, const BuiltModel& built,
+                    const ValidityReport& validity, const SurfacesReport& report) {
   Json json = mesh_json(report.after);
   json["sites"] = remeshed.sites_asked;
   json["edge_length_m"] = remeshed.edge_length_m;
@@ -271,6 +273,21 @@ Json json_of(const DihedralQuantiles& angles) {
           {"outside_wedges", listed(angles.outside_wedges)}};
 }
 
+/// Irregular points inside: those of the field, and those that came of curves laid into the quads.
+Json irregular_json(const MeshedQuads& quads) {
+  const std::vector<std::uint32_t> valence = quad_valence(quads.mesh);
+  const std::vector<char> is_boundary = boundary_points(quads.mesh);
+  Json list = Json::array();
+  for (std::uint32_t p = 0; p < valence.size(); ++p) {
+    if (is_boundary[p] || valence[p] == 4) continue;
+    const Vec3 at = quads.mesh.points[p] + quads.mesh.local_origin;
+    list.push_back({{"at", {at.x, at.y, at.z}},
+                    {"quads", valence[p]},
+                    {"created", std::binary_search(quads.created.begin(), quads.created.end(), p)}});
+  }
+  return list;
+}
+
 Json quads_block(const FeatureMesh* problem, const MeshedQuads& quads, const Attempt<FieldAndMap>* seamless,
                  const Attempt<GridMapping>* grid) {
   const QuadQuality& quality = quads.quality;
@@ -289,17 +306,18 @@ Json quads_block(const FeatureMesh* problem, const MeshedQuads& quads, const Att
                 {"features", problem ? problem->features.size() : quads.mesh.features.size()},
                 {"features_missing", quads.missing.size()},
                 {"fallback", quads.why_subdivided.empty() ? Json(nullptr) : Json(quads.why_subdivided)},
+                {"imprinted", quads.imprinted.size()},
+                {"imprinted_curves", quads.imprinted},
+                {"irregular", quads.imprinted.empty() ? Json(nullptr) : irregular_json(quads)},
                 {"histograms", json_of(spreads)},
                 {"changes", json_of(quads.mesh.changes)}};
   if (seamless && seamless->why_not.empty()) {
     const FrameFieldReport& report = seamless->value.field.report;
-    block["field"] = {{"valence_3", report.valence_3},
-                      {"valence_5", report.valence_5},
-                      {"valence_other", report.valence_other},
-                      {"on_features", report.feature_irregular},
-                      {"cancelled", report.cancelled},
-                      {"smallest_sine", seamless->value.field.field.smallest_sine},
-                      {"given_up", seamless->value.retries}};
+    block["field"] = {
+        {"valence_3", report.valence_3},         {"valence_5", report.valence_5},
+        {"valence_other", report.valence_other}, {"on_features", report.feature_irregular},
+        {"cancelled", report.cancelled},         {"smallest_sine", seamless->value.field.field.smallest_sine},
+        {"given_up", seamless->value.retries}};
     const MapReport& map = seamless->value.map.report;
     block["map"] = {{"unknowns", map.unknowns},
                     {"iterations", map.foldover_free.iterations},
@@ -353,7 +371,9 @@ Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, 
   block["tets"] = quality.tetrahedra;
   block["pyramids"] = quality.pyramids;
   block["prisms"] = quality.prisms;
-  block["cells_from_voronoi"] = report.cells_from_voronoi;
+  block["cells_from_voronoi"] = report.cells_from_voronoi();
+  block["cells_from_segments"] = report.cells_from_segments;
+  block["cells_from_vertices"] = report.cells_from_vertices;
   block["cells_from_fill"] = report.cells_from_fill;
   block["min_scaled_jacobian"] = quality.min_scaled_jacobian;
   block["mean_scaled_jacobian"] = quality.mean_scaled_jacobian;
@@ -368,11 +388,21 @@ Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, 
                            {"nonconforming", report.dropped.nonconforming},
                            {"crossing", report.dropped.crossing},
                            {"unfilled", report.dropped.unfilled}}}};
-  block["points"] = {{"surfaces", report.surface_points},
-                     {"layers", report.layer_points},
-                     {"centres", report.centre_points},
-                     {"apexes", report.apex_points},
-                     {"fill", report.fill_points}};
+  block["points"] = {{"surfaces", report.surface_points},       {"layers", report.layer_points},
+                     {"centres", report.centre_points},         {"apexes", report.apex_points},
+                     {"interior_sites", report.interior_sites}, {"fill", report.fill_points}};
+  const VertexDualCounts& duals = report.vertex_duals;
+  block["voronoi_vertices"] = {{"vertices", duals.vertices},
+                               {"candidates", duals.candidates},
+                               {"unreached", duals.unreached},
+                               {"edges", duals.edges},
+                               {"checked_edges", duals.checked_edges},
+                               {"inconsistent_edges", duals.inconsistent_edges},
+                               {"flat", duals.flat},
+                               {"crossing", duals.crossing},
+                               {"replaced", duals.replaced},
+                               {"kept", duals.kept}};
+  block["interior_sites"] = {{"asked", report.interior_sites_asked}, {"set", report.interior_sites}};
   block["improvement"] = {{"exchanges", report.improvement.exchanges},
                           {"moves", report.improvement.moves},
                           {"added_points", report.improvement.added_points},
@@ -384,6 +414,7 @@ Json hybrid_block(const HybridMesh& hybrid, const VolumeQualityReport& quality, 
   block["surfaces"] = {{"sites", surfaces.sites_asked},
                        {"added_sites", surfaces.added_sites},
                        {"triangles", compared.after.triangles.triangles},
+                       {"min_angle_deg", compared.after.triangles.min_angle_deg},
                        {"hausdorff_ratio", compared.hausdorff.ratio()}};
   return block;
 }
@@ -450,12 +481,9 @@ Json frames_block(const FramedMesh& frames) {
   for (const Polyline& line : frames.singular)
     for (std::size_t i = 0; i + (line.is_closed ? 0 : 1) < line.points.size(); ++i)
       length_m += length(line.points[(i + 1) % line.points.size()] - line.points[i]);
-  return {{"cells", frames.mesh.cell_count()},
-          {"energy", frames.energy},
-          {"iterations", frames.iterations},
-          {"smallest_determinant", frames.smallest_determinant},
-          {"singular_curves", frames.singular.size()},
-          {"singular_length_m", length_m}};
+  return {{"cells", frames.mesh.cell_count()},         {"energy", frames.energy},
+          {"iterations", frames.iterations},           {"smallest_determinant", frames.smallest_determinant},
+          {"singular_curves", frames.singular.size()}, {"singular_length_m", length_m}};
 }
 
 Json hexes_block(const JobReport& report) {
@@ -511,14 +539,14 @@ std::string report_json(const JobReport& report) {
   if (report.model && report.validity) json["model"] = model_block(*report.model, *report.validity);
   if (report.sites && report.diagram) json["voronoi"] = voronoi_block(*report.sites, *report.diagram);
   if (report.remeshed && report.surfaces && report.surfaces_validity && report.surfaces_report)
-    json["surfaces"] =
-        surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity, *report.surfaces_report);
+    json["surfaces"] = surfaces_block(report.sites.get(), *report.remeshed, *report.surfaces, *report.surfaces_validity,
+                                      *report.surfaces_report);
   if (report.complexity) json["complexity"] = complexity_json(*report.complexity);
   if (report.quads && report.plan_problem)
     json["quads"] = quads_block(report.plan_problem.get(), *report.quads, report.seamless_map.get(), report.grid.get());
   if (report.hybrid && report.hybrid_quality && report.hybrid_remeshed && report.hybrid_surfaces_report)
-    json["hybrid"] = hybrid_block(*report.hybrid, *report.hybrid_quality, *report.hybrid_remeshed,
-                                  *report.hybrid_surfaces_report);
+    json["hybrid"] =
+        hybrid_block(*report.hybrid, *report.hybrid_quality, *report.hybrid_remeshed, *report.hybrid_surfaces_report);
   if (report.hexes && report.hex_plan) json["hexes"] = hexes_block(report);
   if (report.frames) json["frames"] = frames_block(*report.frames);
   if (report.tets && report.tets_quality) json["tets"] = tets_block(*report.tets, *report.tets_quality);
@@ -542,29 +570,29 @@ std::string model_json(const BuiltModel& built, const ValidityReport& validity) 
 std::string volume_quality_json(const std::string& file, const VolumeQualityReport& quality,
                                 const std::optional<PatchTestReport>& patch) {
   Json json = {{"file", file},
-                  {"vertices", quality.vertices},
-                  {"cells",
-                   {{"total", quality.cells},
-                    {"tetrahedra", quality.tetrahedra},
-                    {"pyramids", quality.pyramids},
-                    {"prisms", quality.prisms},
-                    {"hexahedra", quality.hexahedra}}},
-                  {"volume_m3", quality.volume_m3},
-                  {"per_region", json_of(quality.per_region)},
-                  {"inverted", quality.inverted},
-                  {"nonconforming_faces", quality.nonconforming_faces},
-                  {"open_boundary_edges", quality.open_boundary_edges},
-                  {"faces_with_hanging_vertex", quality.faces_with_hanging_vertex},
-                  {"coincident_boundary_vertices", quality.coincident_boundary_vertices},
-                  {"inner_faces", quality.inner_faces},
-                  {"boundary_faces", quality.boundary_faces},
-                  {"min_dihedral_deg", quality.min_dihedral_deg},
-                  {"max_dihedral_deg", quality.max_dihedral_deg},
-                  {"dihedral_quantiles", json_of(quality.dihedral_quantiles)},
-                  {"min_scaled_jacobian", quality.min_scaled_jacobian},
-                  {"mean_scaled_jacobian", quality.mean_scaled_jacobian},
-                  {"valid", quality.is_valid()},
-                  {"histograms", json_of(quality.distributions)}};
+               {"vertices", quality.vertices},
+               {"cells",
+                {{"total", quality.cells},
+                 {"tetrahedra", quality.tetrahedra},
+                 {"pyramids", quality.pyramids},
+                 {"prisms", quality.prisms},
+                 {"hexahedra", quality.hexahedra}}},
+               {"volume_m3", quality.volume_m3},
+               {"per_region", json_of(quality.per_region)},
+               {"inverted", quality.inverted},
+               {"nonconforming_faces", quality.nonconforming_faces},
+               {"open_boundary_edges", quality.open_boundary_edges},
+               {"faces_with_hanging_vertex", quality.faces_with_hanging_vertex},
+               {"coincident_boundary_vertices", quality.coincident_boundary_vertices},
+               {"inner_faces", quality.inner_faces},
+               {"boundary_faces", quality.boundary_faces},
+               {"min_dihedral_deg", quality.min_dihedral_deg},
+               {"max_dihedral_deg", quality.max_dihedral_deg},
+               {"dihedral_quantiles", json_of(quality.dihedral_quantiles)},
+               {"min_scaled_jacobian", quality.min_scaled_jacobian},
+               {"mean_scaled_jacobian", quality.mean_scaled_jacobian},
+               {"valid", quality.is_valid()},
+               {"histograms", json_of(quality.distributions)}};
   if (patch)
     json["patch_test"] = {{"unknowns", patch->unknowns},
                           {"max_error_ratio", patch->max_error_ratio},

@@ -8,10 +8,42 @@
 #include "kernels/hexes/conjugate_gradients.h"
 
 namespace strataflow {
+namespace {
 
-std::vector<Vec3> gravity_field(const LabelledTets& tets) {
+/// Per wall, down the upright lines it has an edge on, or else those it touches, as (x, y, −1); z = 0 where it touches
+/// none.
+std::vector<Vec3> directions_of_lines(const LabelledTets& tets, const WallSheets& sheets) {
+  const std::vector<char> is_line = find_upright_lines(tets, sheets);
+  const auto down = [&](std::uint32_t edge) {
+    const auto& [a, b] = sheets.edges[edge].points;
+    const Vec3 along = tets.points[b] - tets.points[a];
+    return (-1 / along.z) * along;
+  };
+  std::vector<Vec3> at_point(tets.points.size());
+  for (std::uint32_t e = 0; e < is_line.size(); ++e)
+    if (is_line[e])
+      for (const std::uint32_t p : sheets.edges[e].points) at_point[p] = at_point[p] + down(e);
+  return parallel_map(
+      sheets.walls.size(),
+      [&](std::size_t w) {
+        const WallSheets::Wall& wall = sheets.walls[w];
+        Vec3 sum;
+        for (const std::uint32_t e : wall.edges)
+          if (is_line[e]) sum = sum + down(e);
+        for (std::size_t k = 0; k < 3 && sum.z == 0; ++k) sum = sum + at_point[wall.vertices[k]];
+        return sum.z == 0 ? sum : (-1 / sum.z) * sum;
+      },
+      1024);
+}
+
+}  // namespace
+
+std::vector<Vec3> gravity_field(const LabelledTets& tets, const WallSheets& sheets) {
   constexpr double sin_5_deg = 0.08715574274765817;
-  // Each tet's (x, y) is fixed + y_0 · axes[0] + y_1 · axes[1], with one axis where a wall holds it.
+  std::vector<std::uint32_t> wall_of(tets.facets.size(), no_index);
+  for (std::uint32_t w = 0; w < sheets.walls.size(); ++w) wall_of[sheets.walls[w].facet] = w;
+  const std::vector<Vec3> along_line = directions_of_lines(tets, sheets);
+  // Each tet's (x, y) is fixed + y_0 · axes[0] + y_1 · axes[1], with one axis where a wall holds it, none at a line.
   struct Freedom {
     std::uint32_t first = 0, count = 2;
     Vec3 fixed;
@@ -32,6 +64,10 @@ std::vector<Vec3> gravity_field(const LabelledTets& tets) {
       free.count = 1;
       free.fixed = {n.x / flat * (n.z / flat), n.y / flat * (n.z / flat), 0};
       free.axes[0] = {-n.y / flat, n.x / flat, 0};
+      if (const Vec3& line = along_line[wall_of[tets.facet_of[4 * t + k]]]; line.z != 0) {
+        free.count = 0;
+        free.fixed = free.fixed + dot(line, free.axes[0]) * free.axes[0];
+      }
     }
     free.first = size;
     size += free.count;
@@ -59,7 +95,8 @@ std::vector<Vec3> gravity_field(const LabelledTets& tets) {
   matrix.values.resize(matrix.first.back());
   std::vector<double> right(size, 0);
   SoftModes modes{{}, std::vector<std::array<double, 2>>(size), 2};
-  for (const Freedom& free : freedom) modes.first.push_back(free.first);
+  for (const Freedom& free : freedom)
+    if (free.count > 0) modes.first.push_back(free.first);
   modes.first.push_back(size);
   parallel_ranges(freedom.size(), 1024, [&](std::size_t begin, std::size_t end) {
     for (std::size_t t = begin; t < end; ++t) {

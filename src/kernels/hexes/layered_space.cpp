@@ -14,6 +14,30 @@ double six_volumes(const std::vector<Vec3>& p, const Tet& t) {
   return dot(p[t[1]] - p[t[0]], cross(p[t[2]] - p[t[0]], p[t[3]] - p[t[0]]));
 }
 
+/// Faults that need not be followed and part the same unit everywhere are as if they were not there: what they cut off
+/// may have no level of its own to hang its layers on.
+void forget_undisplaced(LabelledTets& tets, const StratigraphicLevels& levels) {
+  std::vector<char> is_kept(tets.entities.size(), 0);
+  const auto may_go = [&](const SheetFacet& facet) { return facet.kind == SheetKind::fault && facet.is_aligned == 0; };
+  for (std::uint32_t face = 0; face < tets.facet_of.size(); ++face) {
+    if (tets.facet_of[face] == no_index) continue;
+    const SheetFacet& facet = tets.facets[tets.facet_of[face]];
+    const std::uint32_t other = tets.neighbour[face];
+    if (!may_go(facet) || other == no_index || levels.unit[face / 4] != levels.unit[other / 4])
+      is_kept[facet.entity] = 1;
+  }
+  std::vector<std::uint32_t> number(tets.facets.size(), no_index);
+  std::vector<SheetFacet> kept;
+  for (std::size_t f = 0; f < tets.facets.size(); ++f) {
+    if (!is_kept[tets.facets[f].entity]) continue;
+    number[f] = static_cast<std::uint32_t>(kept.size());
+    kept.push_back(tets.facets[f]);
+  }
+  for (std::uint32_t& facet : tets.facet_of)
+    if (facet != no_index) facet = number[facet];
+  tets.facets = std::move(kept);
+}
+
 /// The failure, if too much is flipped.
 Result<void> judge_flips(const LayeredSpace& space) {
   constexpr double tolerated_ratio = 1e-4;
@@ -30,12 +54,13 @@ Result<void> judge_flips(const LayeredSpace& space) {
   }
   if (!(flipped > tolerated_ratio * all)) return {};
   const auto worst = static_cast<std::size_t>(std::max_element(by_region.begin(), by_region.end()) - by_region.begin());
-  return Failure{FailureCode::geometry_failed,
-                 std::to_string(space.flipped.size()) + " tetrahedra turn over between the horizons, most of them in " +
-                     (worst < space.model.region_names.size() ? space.model.region_names[worst]
-                                                              : "region " + std::to_string(worst)),
-                 "build on surfaces with better triangles (output.from = \"surfaces\"), mesh this region finer, or leave out "
-                 "the horizon that overturns"};
+  return Failure{
+      FailureCode::geometry_failed,
+      std::to_string(space.flipped.size()) + " tetrahedra turn over between the horizons, most of them in " +
+          (worst < space.model.region_names.size() ? space.model.region_names[worst]
+                                                   : "region " + std::to_string(worst)),
+      "build on surfaces with better triangles (output.from = \"surfaces\"), mesh this region finer, or leave out "
+      "the horizon that overturns"};
 }
 
 }  // namespace
@@ -49,21 +74,19 @@ Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels
   space.plan = std::move(plan);
   std::size_t split = 0;
   for (int round = 0;; ++round) {
-    Result<StratigraphicTets> layers = find_stratigraphic_function(
-        space.model, space.levels, options, round == 0 ? nullptr : &space.layers);
+    Result<StratigraphicTets> layers =
+        find_stratigraphic_function(space.model, space.levels, options, round == 0 ? nullptr : &space.layers);
     if (!layers) return layers.failure();
     space.layers = std::move(*layers);
     space.flipped = flipped_in_layers(space.layers, space.plan);
     if (!space.flipped.empty()) {
       const std::size_t solves = round == 0 ? 40 : 8;  // later rounds begin near what they look for
-      const Result<std::size_t> steepened =
-          steepen_layers(space.model, space.levels, space.plan, space.layers, solves);
+      const Result<std::size_t> steepened = steepen_layers(space.model, space.levels, space.plan, space.layers, solves);
       if (!steepened) return steepened.failure();
       space.flipped = flipped_in_layers(space.layers, space.plan);
     }
     if (space.flipped.empty() || round == rounds) break;
-    const std::size_t count =
-        split_flat_diagonals(space.model, space.levels, space.plan, space.layers, space.flipped);
+    const std::size_t count = split_flat_diagonals(space.model, space.levels, space.plan, space.layers, space.flipped);
     if (count == 0) break;
     split += count;
     split_level_chords(space.model, space.levels, &space.plan);
@@ -92,6 +115,7 @@ Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOpti
   if (!tets) return tets.failure();
   Result<StratigraphicLevels> levels = find_stratigraphic_levels(*tets);
   if (!levels) return levels.failure();
+  forget_undisplaced(*tets, *levels);
   split_level_chords(*tets, *levels);
   if (!stands_upright(*tets)) {
     split_wall_chords(*tets, *levels);
@@ -101,8 +125,8 @@ Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOpti
   Result<UprightPlan> upright = verticalise(*tets, {options.untangling_steps});
   if (!upright) return upright.failure();
   std::vector<Polyline> lines = plan_lines(*tets, *upright, options.follow_horizon_lines);
-  return UprightModel{std::move(*tets),  std::move(*levels),         std::move(upright->plan),
-                      std::move(lines),  upright->flipped_by_linear, upright->untangling_steps};
+  return UprightModel{std::move(*tets), std::move(*levels),         std::move(upright->plan),
+                      std::move(lines), upright->flipped_by_linear, upright->untangling_steps};
 }
 
 Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {

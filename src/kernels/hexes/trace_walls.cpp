@@ -16,14 +16,15 @@ constexpr double upright_sine = 0.2;  // lines where walls meet that rise less a
 class WallTracer {
  public:
   WallTracer(const LabelledTets& tets, const WallSheets& sheets, const std::vector<Vec3>& gravity)
-      : tets_(tets), sheets_(sheets) {
+      : tets_(tets), sheets_(sheets), is_line_(find_upright_lines(tets, sheets, upright_sine)) {
     for (const WallSheets::Wall& wall : sheets.walls) {
       Vec3 d = gravity[wall.tets[0]];
       if (wall.tets[1] != no_index) d = 0.5 * (d + gravity[wall.tets[1]]);
       directions_.push_back(d);
       rates_.push_back(rates_in(wall, d));
-      plumb_rates_.push_back(rates_in(wall, {0, 0, -1}));
     }
+    corner_rates_ = parallel_map(
+        sheets.walls.size(), [&](std::size_t w) { return rates_at_corners(sheets_.walls[w]); }, 256);
   }
 
   TracedWalls trace() {
@@ -46,7 +47,7 @@ class WallTracer {
             }
           for (const std::uint32_t sheet : around) {
             if (is_low(point, sheet)) continue;
-            const auto one = follow_off_corners(point, sheet);
+            const auto one = follow(point, sheet);
             result.stuck += one ? 0 : 1;
             if (one && result.constraint) ++result.conflicts;
             if (one && !result.constraint) result.constraint = one;
@@ -66,12 +67,45 @@ class WallTracer {
   using Rates = std::array<double, 3>;  // how fast the weights of a triangle's corners grow along the field
 
   Rates rates_in(const WallSheets::Wall& wall, const Vec3& d) const {
-    const Vec3 &a = tets_.points[wall.vertices[0]], &b = tets_.points[wall.vertices[1]], &c = tets_.points[wall.vertices[2]];
+    const Vec3 &a = tets_.points[wall.vertices[0]], &b = tets_.points[wall.vertices[1]],
+               &c = tets_.points[wall.vertices[2]];
     const Vec3 ab = b - a, ac = c - a;
     const double bb = dot(ab, ab), cc = dot(ac, ac), bc = dot(ab, ac), db = dot(d, ab), dc = dot(d, ac);
     const double determinant = bb * cc - bc * bc;
     const double of_b = (cc * db - bc * dc) / determinant, of_c = (bb * dc - bc * db) / determinant;
     return {-of_b - of_c, of_b, of_c};
+  }
+
+  /// Straight along an edge, downwards, as (x, y, −1).
+  Vec3 down(std::uint32_t edge) const {
+    const auto& [a, b] = sheets_.edges[edge].points;
+    const Vec3 along = tets_.points[b] - tets_.points[a];
+    return (-1 / along.z) * along;
+  }
+
+  /// The field made continuous over a sheet, so that what goes down it never meets: at each corner the mean of the
+  /// triangles around, or along the upright line it lies on.
+  std::array<Rates, 3> rates_at_corners(const WallSheets::Wall& wall) const {
+    std::array<Vec3, 3> corner;
+    for (std::size_t k = 0; k < 3; ++k) {
+      Vec3 of_lines, of_walls;
+      for (const std::uint32_t e : sheets_.point_edges[wall.vertices[k]])
+        if (is_line_[e] && sheets_.is_in_sheet(e, wall.sheet)) of_lines = of_lines + down(e);
+      for (const std::uint32_t w : sheets_.point_walls[wall.vertices[k]])
+        if (sheets_.walls[w].sheet == wall.sheet) of_walls = of_walls + directions_[w];
+      corner[k] = of_lines.z < 0 ? (-1 / of_lines.z) * of_lines : (-1 / of_walls.z) * of_walls;
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      if (is_line_[wall.edges[k]]) corner[k] = corner[(k + 1) % 3] = down(wall.edges[k]);
+    return {rates_in(wall, corner[0]), rates_in(wall, corner[1]), rates_in(wall, corner[2])};
+  }
+
+  /// The rates at a place in a triangle.
+  Rates rates_at(std::uint32_t wall, const Rates& place) const {
+    Rates sum{};
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t k = 0; k < 3; ++k) sum[k] += place[j] * corner_rates_[wall][j][k];
+    return sum;
   }
 
   static std::uint32_t corner_of(const WallSheets::Wall& wall, std::uint32_t point) {
@@ -98,9 +132,8 @@ class WallTracer {
         traced.lower_edges.push_back({sheet, e});
         for (const std::uint32_t p : sheets_.edges[e].points) low_sheets_[p].push_back(sheet);
       }
-    std::sort(traced.lower_edges.begin(), traced.lower_edges.end(), [](const auto& a, const auto& b) {
-      return a.sheet != b.sheet ? a.sheet < b.sheet : a.edge < b.edge;
-    });
+    std::sort(traced.lower_edges.begin(), traced.lower_edges.end(),
+              [](const auto& a, const auto& b) { return a.sheet != b.sheet ? a.sheet < b.sheet : a.edge < b.edge; });
   }
 
   bool is_low(std::uint32_t point, std::uint32_t sheet) const {
@@ -117,13 +150,7 @@ class WallTracer {
     return -along.z / length(along);
   }
 
-  /// Whether several sheets meet along an edge that rises: a line down which points of all of them go.
-  bool is_upright_line(std::uint32_t edge) const {
-    const std::uint32_t first = sheets_.walls[sheets_.edges[edge].walls.front()].sheet;
-    for (const std::uint32_t wall : sheets_.edges[edge].walls)
-      if (sheets_.walls[wall].sheet != first) return std::abs(descent(edge, sheets_.edges[edge].points[0])) > upright_sine;
-    return false;
-  }
+  bool is_upright_line(std::uint32_t edge) const { return is_line_[edge] != 0; }
 
   /// Down the steepest edge that most of the point's sheets share; no_index where no two share one.
   std::uint32_t next_on_shared_line(std::uint32_t point, const std::vector<std::uint32_t>& around) const {
@@ -152,21 +179,9 @@ class WallTracer {
     return sum / count;
   }
 
-  /// Down the field, or straight down where the field leads into a line that sheets share: what stood beside that line
-  /// would fall into it.
-  std::optional<UprightConstraint> follow_off_corners(std::uint32_t start, std::uint32_t sheet) const {
-    bool is_in_corner = false;
-    const auto one = follow(start, sheet, rates_, is_in_corner);
-    if (!is_in_corner) return one;
-    is_in_corner = false;
-    const auto plumb = follow(start, sheet, plumb_rates_, is_in_corner);
-    return plumb && !is_in_corner ? plumb : one;
-  }
-
-  std::optional<UprightConstraint> follow(std::uint32_t start, std::uint32_t sheet, const std::vector<Rates>& rates,
-                                          bool& is_in_corner) const {
+  std::optional<UprightConstraint> follow(std::uint32_t start, std::uint32_t sheet) const {
     std::uint32_t at = start, edge = no_index, from = no_index;  // at a point, or on an edge coming out of a triangle
-    double weight = 0;                                            // on an edge: of its first point
+    double weight = 0;                                           // on an edge: of its first point
     const std::size_t most_steps = 3 * sheets_.walls.size() + 10;
     for (std::size_t step = 0; step < most_steps; ++step) {
       if (edge != no_index) {
@@ -177,13 +192,20 @@ class WallTracer {
           continue;
         }
         const std::uint32_t wall = sheets_.across(from, edge);
-        if (wall == no_index && !is_upright_line(edge)) return UprightConstraint{start, ends[0], ends[1], weight, sheet};
-        if (wall != no_index && rates[wall][opposite(wall, edge)] > snap * size_of(wall)) {
-          cross_wall(wall, rates[wall], edge, weight);
-          from = wall;
-          continue;
+        if (wall == no_index && !is_upright_line(edge))
+          return UprightConstraint{start, ends[0], ends[1], weight, sheet};
+        if (wall != no_index) {
+          const WallSheets::Wall& w = sheets_.walls[wall];
+          const std::uint32_t c = opposite(wall, edge), a = (c + 1) % 3, b = (c + 2) % 3;
+          Rates place{};
+          place[a] = ends[0] == w.vertices[a] ? weight : 1 - weight;
+          place[b] = 1 - place[a];
+          if (rates_at(wall, place)[c] > snap * size_of(wall)) {
+            if (!cross_wall(wall, place, edge, weight)) return std::nullopt;
+            from = wall;
+            continue;
+          }
         }
-        is_in_corner = is_in_corner || wall == no_index;
         at = height(ends[0]) < height(ends[1]) ? ends[0] : ends[1];  // both sides push onto the edge, or it is a corner
         edge = no_index;
         continue;
@@ -193,19 +215,22 @@ class WallTracer {
         if (const std::vector<std::uint32_t> around = sheets_.sheets_at(at); around.size() > 1)
           if (const std::uint32_t below = next_on_shared_line(at, around); below != no_index) {
             at = below;
-            is_in_corner = true;
             continue;
           }
       bool is_inside = false;
       for (const std::uint32_t wall : sheets_.point_walls[at]) {
         if (sheets_.walls[wall].sheet != sheet) continue;
         const std::uint32_t k = corner_of(sheets_.walls[wall], at), l = (k + 1) % 3, m = (k + 2) % 3;
-        const Rates& rate = rates[wall];
+        const Rates& rate = corner_rates_[wall][k];
         if (!(rate[l] >= 0 && rate[m] >= 0 && rate[l] + rate[m] > 0)) continue;
-        edge = sheets_.walls[wall].edges[l];
-        const double of_l = rate[l] / (rate[l] + rate[m]);
-        weight = sheets_.edges[edge].points[0] == sheets_.walls[wall].vertices[l] ? of_l : 1 - of_l;
-        from = wall;
+        if (const double little = snap * size_of(wall); rate[l] <= little || rate[m] <= little) {  // along an edge
+          at = sheets_.walls[wall].vertices[rate[l] <= little ? m : l];
+        } else {
+          Rates place{};
+          place[k] = 1;
+          if (!cross_wall(wall, place, edge, weight)) return std::nullopt;
+          from = wall;
+        }
         is_inside = true;
         break;
       }
@@ -224,29 +249,47 @@ class WallTracer {
     return std::nullopt;
   }
 
-  /// From a point on an edge through a triangle that the field enters there, to the edge it leaves by.
-  void cross_wall(std::uint32_t wall, const Rates& rate, std::uint32_t& edge, double& weight) const {
+  /// From a place in a triangle to the edge that the field leaves it by; false where it does not get there.
+  bool cross_wall(std::uint32_t wall, Rates place, std::uint32_t& edge, double& weight) const {
+    constexpr double step_share = 0.1;  // of a triangle
+    constexpr int most_steps = 2000;
     const WallSheets::Wall& w = sheets_.walls[wall];
-    const std::uint32_t c = opposite(wall, edge), a = (c + 1) % 3, b = (c + 2) % 3;
-    const bool is_along = sheets_.edges[edge].points[0] == w.vertices[a];
-    std::array<double, 3> at{};
-    at[a] = is_along ? weight : 1 - weight;
-    at[b] = 1 - at[a];
-    // The corner whose weight is used up first is the one opposite to the edge left by.
-    const double time_a = rate[a] < 0 ? at[a] / -rate[a] : -1, time_b = rate[b] < 0 ? at[b] / -rate[b] : -1;
-    const std::uint32_t gone = time_b < 0 || (time_a >= 0 && time_a <= time_b) ? a : b;
-    const double time = gone == a ? time_a : time_b;
-    const std::uint32_t kept = gone == a ? b : a;
-    const double of_c = time * rate[c], of_kept = at[kept] + time * rate[kept];
-    edge = w.edges[gone == a ? b : c];  // edge k runs from corner k to corner k + 1: b–c, or c–a
-    const double share = of_kept / (of_kept + of_c);
-    weight = sheets_.edges[edge].points[0] == w.vertices[kept] ? share : 1 - share;
+    double fastest = 0;
+    for (const Rates& rate : corner_rates_[wall])
+      for (const double r : rate) fastest = std::max(fastest, std::abs(r));
+    const double time = step_share / fastest;
+    for (int step = 0; step < most_steps; ++step) {
+      const Rates here = rates_at(wall, place);
+      Rates middle = place;
+      for (std::size_t k = 0; k < 3; ++k) middle[k] += 0.5 * time * here[k];
+      Rates rate = rates_at(wall, middle);
+      for (std::size_t k = 0; k < 3; ++k)
+        if (!(place[k] > 0) && rate[k] < 0) rate = here;  // it came in here, so it does not go out at once
+      double share = 1;
+      std::uint32_t gone = 3;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const double after = place[k] + time * rate[k];
+        if (after > 0 || !(rate[k] < 0) || !(place[k] / (place[k] - after) < share)) continue;
+        share = place[k] / (place[k] - after);
+        gone = k;
+      }
+      for (std::size_t k = 0; k < 3; ++k) place[k] += share * time * rate[k];
+      if (gone == 3) continue;
+      const std::uint32_t a = (gone + 1) % 3, b = (gone + 2) % 3;
+      edge = w.edges[a];  // edge k runs from corner k to corner k + 1
+      const double of_a = place[a] / (place[a] + place[b]);
+      weight = sheets_.edges[edge].points[0] == w.vertices[a] ? of_a : 1 - of_a;
+      return true;
+    }
+    return false;
   }
 
   const LabelledTets& tets_;
   const WallSheets& sheets_;
-  std::vector<Vec3> directions_;                         // per wall
-  std::vector<Rates> rates_, plumb_rates_;               // per wall: along the field, straight down
+  std::vector<char> is_line_;                           // per edge
+  std::vector<Vec3> directions_;                        // per wall
+  std::vector<Rates> rates_;                            // per wall: along the field
+  std::vector<std::array<Rates, 3>> corner_rates_;      // per wall and corner of it
   std::vector<std::vector<std::uint32_t>> low_sheets_;  // per point: sheets whose lower edges it is on
 };
 

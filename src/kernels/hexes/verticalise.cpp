@@ -57,8 +57,9 @@ LinearDeformation linear_deformation(const LabelledTets& tets, const UprightSyst
           for (std::uint32_t r = system.first[q]; r < system.first[q + 1]; ++r) {
             const UprightSystem::Share& column = system.shares[r];
             if (column.unknown > row.unknown) continue;
-            linear.matrix.push_back({row.unknown, column.unknown,
-                                     row.weight * column.weight * tet.volume_m3 * dot(tet.gradient[i], tet.gradient[j])});
+            linear.matrix.push_back(
+                {row.unknown, column.unknown,
+                 row.weight * column.weight * tet.volume_m3 * dot(tet.gradient[i], tet.gradient[j])});
           }
         }
       }
@@ -67,14 +68,19 @@ LinearDeformation linear_deformation(const LabelledTets& tets, const UprightSyst
   return linear;
 }
 
-/// The wall with most tetrahedra turned over around it.
+/// The fault with most tetrahedra turned over around it; the side, where there is none at a fault.
 std::string worst_wall(const LabelledTets& tets, const WallSheets& sheets, const std::vector<std::uint32_t>& over) {
-  std::vector<std::uint32_t> count(tets.entities.size(), 0);
+  std::vector<std::array<std::uint32_t, 2>> count(tets.entities.size(), {0, 0});  // as a fault, as a side
   for (const std::uint32_t t : over)
     for (const std::uint32_t p : tets.tets[t])
-      for (const std::uint32_t sheet : sheets.sheets_at(p)) ++count[sheets.sheet_entity[sheet]];
+      for (const std::uint32_t sheet : sheets.sheets_at(p)) {
+        const std::uint32_t entity = sheets.sheet_entity[sheet];
+        ++count[entity][tets.entities[entity].role == Role::fault ? 0 : 1];
+      }
   const auto worst = std::max_element(count.begin(), count.end());
-  return *worst == 0 ? "no fault" : tets.entities[static_cast<std::size_t>(worst - count.begin())].name;
+  return *worst == std::array<std::uint32_t, 2>{0, 0}
+             ? "no fault"
+             : tets.entities[static_cast<std::size_t>(worst - count.begin())].name;
 }
 
 /// Share of all volume that some tetrahedra have.
@@ -110,7 +116,7 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
     return upright;
   }
   if (const Result<void> checked = check_walls(tets, upright.sheets); !checked) return checked.failure();
-  upright.traced = trace_walls(tets, upright.sheets, gravity_field(tets));
+  upright.traced = trace_walls(tets, upright.sheets, gravity_field(tets, upright.sheets));
   const UprightSystem system = substitute(tets.points.size(), upright.traced.constraints);
   const std::vector<TetGradients> gradients = tet_gradients(tets);
   LinearDeformation linear = linear_deformation(tets, system, gradients);
@@ -161,11 +167,12 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
     over = turned_over(tets, upright.plan);
     if (volume_ratio(gradients, over) > tolerated_ratio) {
       const std::string name = worst_wall(tets, upright.sheets, over);
-      return Failure{FailureCode::geometry_failed,
-                     std::to_string(over.size()) + " tetrahedra stay turned over when faults are set upright, most at " +
-                         name,
-                     "build on surfaces with better triangles (output.from = \"surfaces\"), mesh finer, or leave it out "
-                     "with drop_alignment = [\"" + name + "\"]"};
+      return Failure{
+          FailureCode::geometry_failed,
+          std::to_string(over.size()) + " tetrahedra stay turned over when faults are set upright, most at " + name,
+          "build on surfaces with better triangles (output.from = \"surfaces\"), mesh finer, or leave it out "
+          "with drop_alignment = [\"" +
+              name + "\"]"};
     }
     upright.left_turned_over = static_cast<std::uint32_t>(over.size());
   }

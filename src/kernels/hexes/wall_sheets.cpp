@@ -53,7 +53,8 @@ WallSheets find_wall_sheets(const LabelledTets& tets) {
       continue;
     }
     wall = static_cast<std::uint32_t>(sheets.walls.size());
-    sheets.walls.push_back({face_vertices(tets.tets[face / 4], face % 4), tets.facet_of[face], 0, {face / 4, no_index}, {}});
+    sheets.walls.push_back(
+        {face_vertices(tets.tets[face / 4], face % 4), tets.facet_of[face], 0, {face / 4, no_index}, {}});
   }
   struct Side {
     std::array<std::uint32_t, 2> points;
@@ -65,9 +66,8 @@ WallSheets find_wall_sheets(const LabelledTets& tets) {
       const std::uint32_t a = sheets.walls[w].vertices[k], b = sheets.walls[w].vertices[(k + 1) % 3];
       sides.push_back({{std::min(a, b), std::max(a, b)}, w, k});
     }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-    return a.points != b.points ? a.points < b.points : a.wall < b.wall;
-  });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.points != b.points ? a.points < b.points : a.wall < b.wall; });
   sheets.point_edges.resize(tets.points.size());
   sheets.point_walls.resize(tets.points.size());
   for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -83,7 +83,8 @@ WallSheets find_wall_sheets(const LabelledTets& tets) {
   UnionFind pieces(sheets.walls.size());
   for (const WallSheets::Edge& edge : sheets.edges)
     for (const std::uint32_t a : edge.walls) {
-      if (std::count_if(edge.walls.begin(), edge.walls.end(), [&](std::uint32_t b) { return entity(b) == entity(a); }) != 2)
+      if (std::count_if(edge.walls.begin(), edge.walls.end(),
+                        [&](std::uint32_t b) { return entity(b) == entity(a); }) != 2)
         continue;
       for (const std::uint32_t b : edge.walls) {
         if (b <= a || entity(b) != entity(a)) continue;
@@ -104,6 +105,18 @@ WallSheets find_wall_sheets(const LabelledTets& tets) {
   return sheets;
 }
 
+std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets, double least_sine) {
+  std::vector<char> is_line;
+  is_line.reserve(sheets.edges.size());
+  for (const WallSheets::Edge& edge : sheets.edges) {
+    const std::uint32_t first = sheets.walls[edge.walls.front()].sheet;
+    is_line.push_back(std::any_of(edge.walls.begin(), edge.walls.end(),
+                                  [&](std::uint32_t wall) { return sheets.walls[wall].sheet != first; }) &&
+                      rise(tets, edge.points) > least_sine);
+  }
+  return is_line;
+}
+
 Result<void> check_walls(const LabelledTets& tets, const WallSheets& sheets, double flat_deg) {
   constexpr double tolerated_ratio = 0.05;
   const auto refused = [&](std::uint32_t entity, const std::string& why) {
@@ -120,7 +133,8 @@ Result<void> check_walls(const LabelledTets& tets, const WallSheets& sheets, dou
     if (std::abs(n.z) > flat_cosine * length(n)) of_entity[1] += length(n);
   }
   for (std::uint32_t e = 0; e < area.size(); ++e)
-    if (area[e][1] > tolerated_ratio * area[e][0]) return refused(e, "is nearly horizontal, so it cannot stand upright");
+    if (area[e][1] > tolerated_ratio * area[e][0])
+      return refused(e, "is nearly horizontal, so it cannot stand upright");
   // Lines where a sheet ends inside another: mostly upright ones are corners of columns, flat ones mark a Y.
   struct Meeting {
     double flat_m = 0, all_m = 0;

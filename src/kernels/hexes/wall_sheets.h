@@ -12,10 +12,10 @@ namespace strataflow {
 struct WallSheets {
   struct Wall {
     Triangle vertices{};
-    std::uint32_t facet = 0;                ///< of LabelledTets
+    std::uint32_t facet = 0;  ///< of LabelledTets
     std::uint32_t sheet = 0;
     std::array<std::uint32_t, 2> tets{no_index, no_index};
-    std::array<std::uint32_t, 3> edges{};   ///< edge k runs from vertex k to vertex k + 1
+    std::array<std::uint32_t, 3> edges{};  ///< edge k runs from vertex k to vertex k + 1
   };
   struct Edge {
     std::array<std::uint32_t, 2> points{};  ///< ascending
@@ -23,9 +23,9 @@ struct WallSheets {
   };
   std::vector<Wall> walls;
   std::vector<Edge> edges;
-  std::vector<std::uint32_t> sheet_entity;               ///< per sheet
-  std::vector<std::vector<std::uint32_t>> point_walls;   ///< per point of the model
-  std::vector<std::vector<std::uint32_t>> point_edges;   ///< per point of the model
+  std::vector<std::uint32_t> sheet_entity;              ///< per sheet
+  std::vector<std::vector<std::uint32_t>> point_walls;  ///< per point of the model
+  std::vector<std::vector<std::uint32_t>> point_edges;  ///< per point of the model
 
   /// The other triangle of the sheet at one of its edges, or no_index at the sheet's border.
   std::uint32_t across(std::uint32_t wall, std::uint32_t edge) const {
@@ -42,9 +42,13 @@ struct WallSheets {
   std::vector<std::uint32_t> sheets_at(std::uint32_t point) const;
 };
 
-/// Triangles of one entity belong to one sheet across an edge that no third one shares, unless it is a steep crease: the
-/// corner of a box whose sides are one entity.
+/// Triangles of one entity belong to one sheet across an edge that no third one shares, unless it is a steep crease:
+/// the corner of a box whose sides are one entity.
 WallSheets find_wall_sheets(const LabelledTets& tets);
+
+/// Per edge, whether several sheets meet along it and it rises by more than `least_sine`: points of all of them go down
+/// such a line.
+std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets, double least_sine = 0.2);
 
 /// Refuses what cannot be made upright, naming the entity: walls within `flat_deg` of horizontal, faults that end
 /// downwards on another fault (a Y) or on a side.

@@ -51,8 +51,10 @@ Fit best_match(const StructuralModel& model, const std::vector<std::uint32_t>& p
       squared += dot(link, link);
     }
     if (!fits || top == bottom) continue;
-    const CellState state = state_of(cell_between(bottom, top), model.points);
-    const Fit found = state == CellState::sound ? Fit::good : state == CellState::flat ? Fit::flat : Fit::inverted;
+    const ThinCellState state = state_of(cell_between(bottom, top), model.points);
+    const Fit found = state == ThinCellState::sound  ? Fit::good
+                      : state == ThinCellState::flat ? Fit::flat
+                                                     : Fit::inverted;
     fit = std::min(fit, found);
     if (found != Fit::good) continue;
     if (squared < match.squared_height_m2) {

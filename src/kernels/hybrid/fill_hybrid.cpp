@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 #include <variant>
-#include <variant>
 
 #include "graph/parallel/parallel_map.h"
+#include "kernels/hybrid/interior_sites.h"
+#include "kernels/hybrid/worst_kept_cell.h"
 #include "kernels/volumes/fill_regions.h"
+#include "kernels/volumes/refine_interior.h"
 #include "kernels/volumes/region_boundary.h"
 
 namespace strataflow {
@@ -78,6 +80,10 @@ struct Filled {
   ThinZone zone;
   Cavity cavity;
   RegionMesh tets;
+  double sites_wanted = 0;  ///< inside, for the spacing of its surfaces
+  std::uint64_t sites_asked = 0, sites = 0;
+  VertexDuals duals;
+  VertexDualCounts duals_before;  ///< the improvement
   CellImprovement improvement;
   std::optional<Failure> failure;
   std::string refusal;         ///< why no tetrahedra fit: the surfaces would have to be split
@@ -98,6 +104,7 @@ void improve(const StructuralModel& model, Filled& filled) {
   cells.is_free.resize(cells.points.size(), 1);
   cells.tets = filled.tets.tets;
   cells.facets = boundary.facets;
+  std::vector<ThinCell> kept;  // cells that stay, but whose points may move
   std::vector<std::uint32_t> beyond;
   const auto place_in = [](const std::vector<std::uint32_t>& list, std::uint32_t p) {
     const auto found = std::lower_bound(list.begin(), list.end(), p);
@@ -106,7 +113,7 @@ void improve(const StructuralModel& model, Filled& filled) {
   for (const ThinCell& cell : filled.zone.cells) {
     const auto corners = std::span(cell.vertices).first(static_cast<std::size_t>(vertex_count(cell.type)));
     if (std::none_of(corners.begin(), corners.end(), may_move)) continue;
-    cells.kept.push_back(cell);
+    kept.push_back(cell);
     for (const std::uint32_t p : corners)
       if (place_in(boundary.points, p) == no_index) beyond.push_back(p);
   }
@@ -117,11 +124,12 @@ void improve(const StructuralModel& model, Filled& filled) {
     cells.points.push_back(p < own ? model.points[p] : filled.zone.points[p - own]);
     cells.is_free.push_back(may_move(p));
   }
-  for (ThinCell& cell : cells.kept)
+  for (ThinCell& cell : kept)
     for (int k = 0; k < vertex_count(cell.type); ++k) {
       const std::uint32_t p = cell.vertices[k], place = place_in(boundary.points, p);
       cell.vertices[k] = place != no_index ? place : first_beyond + place_in(beyond, p);
     }
+  cells.worst_kept_at = worst_kept_cell(kept, cells.points.size());
   const CellImprovement improvement = improve_cells(cells);
 
   Cavity cavity = filled.cavity;
@@ -155,9 +163,10 @@ Filled fill_region(const StructuralModel& model, std::uint32_t region, std::span
       filled.zone = build_thin_zone(model, region, pairs, static_cast<std::uint32_t>(options.layers_through_thin));
     filled.cavity = cavity_beside(model, region, filled.zone);
     if (filled.cavity.boundary.facets.empty()) return filled;
-    TetrahedralizeOptions fill = options.fill;
-    const auto own = fill.region_max_volume_m3.find(name);
-    if (own != fill.region_max_volume_m3.end()) fill.max_volume_m3 = own->second;
+    TetrahedralizeOptions fill = options.fill;  // sizes come after the sites inside
+    fill.max_volume_m3.reset();
+    fill.region_max_volume_m3.clear();
+    fill.radius_edge_ratio.reset();
     Result<FilledCavity> tets =
         fill_cavity(filled.cavity.boundary, name, filled.cavity.volume_m3, fill, worker, cancellation);
     if (!tets) {
@@ -167,7 +176,7 @@ Filled fill_region(const StructuralModel& model, std::uint32_t region, std::span
     if (tets->mesh) {
       filled.tets = std::move(*tets->mesh);
       filled.refusal.clear();
-      improve(model, filled);
+      filled.sites_wanted = interior_site_count(filled.cavity.boundary, filled.tets);
       return filled;
     }
     filled.refusal = "region '" + name + "' (" + std::to_string(region) + ")";
@@ -176,6 +185,44 @@ Filled fill_region(const StructuralModel& model, std::uint32_t region, std::span
     filled.prisms_refused = filled.refusal;
   }
   return filled;
+}
+
+/// Spreads sites inside a region, refines what is still too large, and makes the worst better.
+void mesh_inside(const StructuralModel& model, const FillHybridOptions& options, const CancellationToken* cancellation,
+                 Filled& filled) {
+  const RegionBoundary& boundary = filled.cavity.boundary;
+  if (filled.tets.tets.empty()) return;
+  RegionMesh dense = filled.tets;
+  const std::vector<Vec3> sites = spread_interior_sites(
+      boundary, dense, filled.sites_asked, static_cast<std::size_t>(options.lloyd_iterations), cancellation);
+  const std::size_t set = insert_interior_points(boundary, dense, sites).size();
+  const auto own = options.fill.region_max_volume_m3.find(model.regions[boundary.region].name);
+  const InteriorGoal goal{own != options.fill.region_max_volume_m3.end() ? own->second : options.fill.max_volume_m3,
+                          options.fill.radius_edge_ratio};
+  refine_interior(boundary, dense, goal, cancellation);
+  std::vector<Vec3> points = boundary.coordinates;
+  points.insert(points.end(), dense.interior_points.begin(), dense.interior_points.end());
+  auto verdict = verified_region_mesh(boundary, points, dense.tets, filled.cavity.volume_m3);
+  if (RegionMesh* good = std::get_if<RegionMesh>(&verdict)) {
+    filled.tets = std::move(*good);
+    filled.sites = set;
+  }
+  filled.duals_before = find_vertex_duals(boundary, filled.tets).counts;
+  improve(model, filled);
+  filled.duals = find_vertex_duals(filled.cavity.boundary, filled.tets);
+}
+
+/// How many sites each region gets inside.
+void share_out_sites(const std::optional<std::int64_t>& asked, std::vector<Filled>& regions) {
+  double all = 0;
+  for (const Filled& filled : regions) all += filled.sites_wanted;
+  const double factor = asked && all > 0 ? static_cast<double>(*asked) / all : 1;
+  double passed = 0;
+  for (Filled& filled : regions) {
+    const auto before = static_cast<std::uint64_t>(std::llround(factor * passed));
+    passed += filled.sites_wanted;
+    filled.sites_asked = static_cast<std::uint64_t>(std::llround(factor * passed)) - before;
+  }
 }
 
 /// Base edge over height of a prism, from means of both.
@@ -195,6 +242,19 @@ void add(DroppedPairs& sum, const DroppedPairs& part) {
   sum.nonconforming += part.nonconforming;
   sum.crossing += part.crossing;
   sum.unfilled += part.unfilled;
+}
+
+void add(VertexDualCounts& sum, const VertexDualCounts& part) {
+  sum.vertices += part.vertices;
+  sum.candidates += part.candidates;
+  sum.unreached += part.unreached;
+  sum.edges += part.edges;
+  sum.checked_edges += part.checked_edges;
+  sum.inconsistent_edges += part.inconsistent_edges;
+  sum.flat += part.flat;
+  sum.crossing += part.crossing;
+  sum.replaced += part.replaced;
+  sum.kept += part.kept;
 }
 
 void add(CellImprovement& sum, const CellImprovement& part) {
@@ -227,6 +287,9 @@ HybridMesh assembled(const StructuralModel& model, const std::vector<Filled>& re
     HybridRegion& counted = report.regions.emplace_back();
     add(report.dropped, filled.zone.dropped);
     add(report.improvement, filled.improvement);
+    add(report.vertex_duals, filled.duals_before);
+    report.interior_sites_asked += filled.sites_asked;
+    report.interior_sites += filled.sites;
     const auto own_points = static_cast<std::uint32_t>(model.points.size());
     const auto first_point = static_cast<std::uint32_t>(mesh.points.size());
     auto first_cell = static_cast<std::uint32_t>(mesh.cell_count());
@@ -234,7 +297,7 @@ HybridMesh assembled(const StructuralModel& model, const std::vector<Filled>& re
     report.layer_points += filled.zone.layer_points;
     report.centre_points += filled.zone.centre_points;
     report.apex_points += filled.zone.apex_points;
-    report.cells_from_voronoi += filled.zone.cells.size();
+    report.cells_from_segments += filled.zone.cells.size();
     const auto renumbered = [&](std::uint32_t p) { return p < own_points ? p : first_point + (p - own_points); };
     for (ThinCell cell : filled.zone.cells) {
       for (int k = 0; k < vertex_count(cell.type); ++k) cell.vertices[k] = renumbered(cell.vertices[k]);
@@ -263,8 +326,9 @@ HybridMesh assembled(const StructuralModel& model, const std::vector<Filled>& re
     const auto first_fill_point = static_cast<std::uint32_t>(mesh.points.size());
     const auto boundary_points = static_cast<std::uint32_t>(boundary.points.size());
     mesh.points.insert(mesh.points.end(), filled.tets.interior_points.begin(), filled.tets.interior_points.end());
-    report.fill_points += filled.tets.interior_points.size();
-    report.cells_from_fill += filled.tets.tets.size();
+    report.fill_points += filled.tets.interior_points.size() - filled.sites;
+    report.cells_from_vertices += filled.duals.counts.kept;
+    report.cells_from_fill += filled.tets.tets.size() - filled.duals.counts.kept;
     counted.tetrahedra += filled.tets.tets.size();
     counted.volume_m3 += boundary.facets.empty() ? 0 : filled.cavity.volume_m3;
     for (const Tet& tet : filled.tets.tets) {
@@ -338,7 +402,7 @@ Result<HybridMesh> fill_hybrid(const StructuralModel& model, const std::vector<s
   std::vector<std::size_t> first_pair(model.regions.size() + 1, 0);
   for (const FacingPair& pair : pairs) ++first_pair[pair.region + 1];
   for (std::size_t r = 0; r < model.regions.size(); ++r) first_pair[r + 1] += first_pair[r];
-  const std::vector<Filled> regions = parallel_map(model.regions.size(), [&](std::size_t r) {
+  std::vector<Filled> regions = parallel_map(model.regions.size(), [&](std::size_t r) {
     return fill_region(model, static_cast<std::uint32_t>(r),
                        std::span(pairs).subspan(first_pair[r], first_pair[r + 1] - first_pair[r]), options,
                        cancellation, worker);
@@ -359,6 +423,11 @@ Result<HybridMesh> fill_hybrid(const StructuralModel& model, const std::vector<s
     }
     return alone;
   }
+  share_out_sites(options.interior_sites, regions);
+  parallel_ranges(regions.size(), 1,
+                  [&](std::size_t r, std::size_t) { mesh_inside(model, options, cancellation, regions[r]); });
+  if (cancellation && cancellation->is_cancelled())
+    return Failure{FailureCode::cancelled, "meshing was stopped", "run it again"};
   HybridMesh hybrid = assembled(model, regions);
   hybrid.report.facing = facing;
   for (std::size_t r = 0; r < regions.size(); ++r)

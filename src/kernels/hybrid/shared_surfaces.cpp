@@ -27,9 +27,9 @@ namespace {
 /// One dual, judged.
 struct Attempt {
   SharedSurfaces surfaces;
-  std::string flaw;                      ///< empty: valid
-  std::vector<std::uint32_t> bad_sites;  ///< in whose cells triangles cross; ascending
-  std::vector<Vec3> wanted_sites;        ///< on what was not kept
+  std::string flaw;                       ///< empty: valid
+  std::vector<std::uint32_t> bad_sites;   ///< in whose cells triangles cross; ascending
+  std::vector<Vec3> wanted_sites;         ///< on what was not kept
   std::vector<std::uint32_t> flat_sites;  ///< of triangles with hardly any area, as between points of a straight line
 };
 
@@ -100,6 +100,7 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
     made.surfaces.changes.push_back(describe(change, model, built->model));
     if (!must_keep_all) continue;
     if (made.flaw.empty()) made.flaw = made.surfaces.changes.back();
+    if (!made.bad_sites.empty()) continue;  // what crosses makes elements of its own: mended first, few are left
     add_wanted_sites(model, diagram, *components, change, made.wanted_sites);
   }
   if (!made.flaw.empty() && made.bad_sites.empty() &&
@@ -109,7 +110,8 @@ Result<Attempt> attempt(const StructuralModel& model, const RestrictedDiagram& d
   made.bad_sites = sorted_unique(std::move(made.bad_sites));
   constexpr double least_height_ratio = 2e-3;  // to the longest edge
   for (const Triangle& t : dual.soup.triangles) {
-    const Vec3 ab = dual.soup.points[t[1]] - dual.soup.points[t[0]], ac = dual.soup.points[t[2]] - dual.soup.points[t[0]];
+    const Vec3 ab = dual.soup.points[t[1]] - dual.soup.points[t[0]],
+               ac = dual.soup.points[t[2]] - dual.soup.points[t[0]];
     const double longest = std::max({dot(ab, ab), dot(ac, ac), dot(ac - ab, ac - ab)});
     if (!(length(cross(ab, ac)) < least_height_ratio * longest)) continue;
     for (const std::uint32_t point : t) made.flat_sites.push_back(dual.points[point].site);
@@ -166,6 +168,7 @@ Result<SharedSurfaces> remesh_on_shared_sites(const StructuralModel& model, Shar
     return options.settle.optimise.is_cancelled && options.settle.optimise.is_cancelled();
   };
   constexpr std::int64_t most_flat_rounds = 3;
+  constexpr std::size_t most_growth = 4;  // beyond it sites follow one another without end
   std::int64_t flat_rounds = 0;
   std::optional<SharedSurfaces> valid;  // the last that was
   for (std::int64_t round = 0;; ++round) {
@@ -191,7 +194,7 @@ Result<SharedSurfaces> remesh_on_shared_sites(const StructuralModel& model, Shar
       return std::move(*valid);
     }
     const std::size_t before = shared.sites.size();
-    if (valid ? flat_rounds <= most_flat_rounds : round < options.rounds)
+    if (valid ? flat_rounds <= most_flat_rounds : round < options.rounds && before <= most_growth * asked)
       add_sites(diagram, made->bad_sites, std::move(made->wanted_sites), shared);
     if (shared.sites.size() > before) continue;
     if (valid) return std::move(*valid);

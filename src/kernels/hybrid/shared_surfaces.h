@@ -17,7 +17,7 @@ inline constexpr const char* site_property = "site";
 struct SharedSurfacesOptions {
   SettleOptions settle;
   std::vector<double> density = {};  ///< per point of the model, for the tessellation; empty: 1 everywhere
-  std::int64_t rounds = 8;           ///< ≥ 0: of adding sites where the dual is not valid or does not keep all
+  std::int64_t rounds = 24;          ///< ≥ 0: of adding sites where the dual is not valid or does not keep all
   bool must_keep_all = true;         ///< a lost, merged, split or new element is a flaw
 };
 

@@ -37,13 +37,14 @@ ThinCell cone_over(const std::array<std::uint32_t, 4>& face, std::uint32_t apex)
   return {CellType::pyramid, {face[0], face[3], face[2], face[1], apex}};
 }
 
-CellState state_of(const ThinCell& cell, const std::vector<Vec3>& points) {
+ThinCellState state_of(const ThinCell& cell, const std::vector<Vec3>& points) {
   constexpr double least_scaled_jacobian = 1e-3;  // flatter ones give nobody joy, and checks their rounding errors
   const auto corners = corners_of(cell, points);
   const auto used = std::span(corners).first(vertex_count(cell.type));
   if (is_inverted(cell.type, used) || (cell.type == CellType::prism && !is_untwisted(corners)))
-    return CellState::inverted;
-  return measure_cell(cell.type, used).scaled_jacobian >= least_scaled_jacobian ? CellState::sound : CellState::flat;
+    return ThinCellState::inverted;
+  return measure_cell(cell.type, used).scaled_jacobian >= least_scaled_jacobian ? ThinCellState::sound
+                                                                                : ThinCellState::flat;
 }
 
 double volume_of(const ThinCell& cell, const std::vector<Vec3>& points) {

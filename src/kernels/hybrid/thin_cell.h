@@ -26,7 +26,7 @@ ThinCell cell_between(const Triangle& bottom, const Triangle& top);
 ThinCell cone_over(const std::array<std::uint32_t, 4>& face, std::uint32_t apex);
 
 /// Whether a cell can be kept.
-enum class CellState : std::uint8_t {
+enum class ThinCellState : std::uint8_t {
   sound,
   flat,     ///< positive at every corner, but with a scaled Jacobian below 1e-3
   inverted  ///< not positive at every corner, exactly; or a prism so twisted that it might not be inside
@@ -35,7 +35,7 @@ enum class CellState : std::uint8_t {
 /// Positive corners make pyramids positive everywhere: their determinant is bilinear over the base. That of a prism is
 /// quadratic along its height; it is positive if its Bernstein coefficients are, at each of the three links.
 
-CellState state_of(const ThinCell& cell, const std::vector<Vec3>& points);
+ThinCellState state_of(const ThinCell& cell, const std::vector<Vec3>& points);
 
 double volume_of(const ThinCell& cell, const std::vector<Vec3>& points);
 

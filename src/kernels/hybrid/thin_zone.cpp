@@ -334,7 +334,7 @@ class ZoneBuilder {
   std::optional<double> smallest_volume(const std::vector<ThinCell>& cells) const {
     double smallest = std::numeric_limits<double>::infinity();
     for (const ThinCell& cell : cells) {
-      if (state_of(cell, all_points_) != CellState::sound) return std::nullopt;
+      if (state_of(cell, all_points_) != ThinCellState::sound) return std::nullopt;
       smallest = std::min(smallest, volume_of(cell, all_points_));
     }
     return smallest;

@@ -250,7 +250,7 @@ std::optional<std::vector<ThinCell>> cells_of(const VertexCell& cell, std::uint3
     return std::nullopt;
   }
   for (const ThinCell& made : cells)
-    if (state_of(made, points) != CellState::sound) return std::nullopt;
+    if (state_of(made, points) != ThinCellState::sound) return std::nullopt;
   return cells;
 }
 

@@ -16,7 +16,6 @@ namespace strataflow {
 namespace {
 /// A millidarcy times a metre, in cP·m³/(day·bar).
 constexpr double darcy_unit = 9.869233e-16 * 86400 * 1e5 / 1e-3;
-constexpr std::uint64_t most_places = std::uint64_t{1} << 31;
 constexpr std::uint32_t corner_i[] = {0, 1, 1, 0}, corner_j[] = {0, 0, 1, 1};
 
 double mean_edge_length(const QuadMesh& plan) {
@@ -104,7 +103,7 @@ class SimulationGridBuilder {
   SimulationGridBuilder(const HexGrid& hexes, const std::vector<std::uint32_t>& cells, Placement& placement)
       : hexes_(hexes), cells_(cells), placement_(placement) {}
 
-  Result<void> build_grid() {
+  Result<void> build_grid(std::uint64_t most_places) {
     turn_first_column();
     CornerPointGrid& grid = out.grid;
     grid.local_origin = hexes_.mesh.local_origin;
@@ -116,8 +115,13 @@ class SimulationGridBuilder {
     }
     const std::uint64_t places = std::uint64_t{grid.size[0]} * grid.size[1] * grid.size[2];
     if (places > most_places)
-      return Failure{FailureCode::unsupported, "the index box has " + std::to_string(places) + " places",
-                     "choose the layout blocks, or a coarser grid"};
+      return Failure{
+          FailureCode::unsupported,
+          "the index box would have " + std::to_string(places) + " places for " +
+              std::to_string(hexes_.mesh.cell_count()) + " cells, in " + std::to_string(placement_.pieces.size()) +
+              " pieces of columns",
+          "raise hex.pillar_tolerance_m so that fewer columns are split, choose the layout blocks, or a coarser "
+          "grid"};
     set_cells();
     fill_empty_columns();
     return {};
@@ -418,7 +422,7 @@ Result<SimulationGrid> build_simulation_grid(const HexGrid& hexes, const std::ve
   if (!placement) return placement.failure();
   SimulationGridBuilder builder(hexes, *cells, *placement);
   builder.out.rock = rock;
-  if (const auto built = builder.build_grid(); !built) return built.failure();
+  if (const auto built = builder.build_grid(options.most_places); !built) return built.failure();
   builder.connect(find_cell_contacts(hexes, *cells, *opposite), faults);
   builder.report();
   return std::move(builder.out);

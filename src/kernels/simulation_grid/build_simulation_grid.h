@@ -21,6 +21,7 @@ struct SimulationGridOptions {
   /// How far a corner may lie from its straight pillar before its column is split in K, metres, > 0. Nothing: 1 % of
   /// the mean edge of the plan.
   std::optional<double> pillar_tolerance_m;
+  std::uint64_t most_places = 20'000'000;  ///< of the index box; columns split in K need many that stay empty
 };
 
 /// The corner-point grid of hexahedra in layers, with non-neighbour connections for all contacts that indices do not

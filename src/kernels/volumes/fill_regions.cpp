@@ -280,7 +280,9 @@ Result<FilledCavity> fill_cavity(const RegionBoundary& boundary, const std::stri
   alone.regions.resize(1);
   alone.regions[0].name = name;
   alone.regions[0].volume_m3 = volume_m3;
-  const AttemptPlan plan;
+  AttemptPlan plan;  // in true space first: tetrahedra that are Delaunay are duals of Voronoi vertices
+  std::stable_partition(plan.keeping.begin(), plan.keeping.end(),
+                        [](const RegionAttempt& attempt) { return !attempt.is_stretched; });
   const std::filesystem::path program = worker.empty() ? program_folder() / "tet_worker" : worker;
   const Job job{alone, options, plan, program, cancellation};
   RegionBoundary own = boundary;

@@ -71,6 +71,20 @@ class GrowingMesh {
     }
   }
 
+  std::vector<std::uint32_t> insert(std::span<const Vec3> points) {
+    std::vector<std::uint32_t> set;
+    max_cavity_ = no_index;  // points on a sphere give one sphere to all: to be Delaunay they go together
+    std::uint32_t near = 0;
+    for (std::uint32_t p = 0; p < points.size(); ++p) {
+      const std::uint32_t holder = holder_of(points[p], near);
+      if (holder == no_index || !open_cavity(holder, points[p], true)) continue;
+      near = cavity_.front();  // a slot that is used again
+      fill_cavity(points[p]);
+      set.push_back(p);
+    }
+    return set;
+  }
+
   void write_to(std::size_t boundary_points, RegionMesh& mesh) const {
     std::vector<std::uint32_t> number(tets_.size(), no_index);
     mesh.tets.clear();
@@ -87,9 +101,6 @@ class GrowingMesh {
   }
 
  private:
-  /// Flat tetrahedra have huge spheres; a cavity need not take all that they reach.
-  static constexpr std::size_t max_cavity = 200;
-
   /// A face of the cavity, seen from outside: counter-clockwise (a, b, c), and what lies behind it.
   struct CavityFace {
     std::uint32_t a, b, c;
@@ -143,6 +154,21 @@ class GrowingMesh {
     return no_index;
   }
 
+  /// The tetrahedron that holds `target`, looked for from `near` on first.
+  std::uint32_t holder_of(const Vec3& target, std::uint32_t near) const {
+    if (const std::uint32_t seen = seen_from(near, target); seen != no_index) return seen;
+    for (std::uint32_t t = 0; t < tets_.size(); ++t) {
+      bool holds = is_alive_[t] != 0;
+      for (std::size_t k = 0; k < 4 && holds; ++k) {
+        const auto& corner = face_corners[k];
+        holds = orientation_3d(points_[tets_[t][corner[0]]], points_[tets_[t][corner[1]]], points_[tets_[t][corner[2]]],
+                               target) <= 0;
+      }
+      if (holds) return t;
+    }
+    return no_index;
+  }
+
   bool insert_circumcentre(std::uint32_t tet) {
     const Vec3 centre = sphere(tets_[tet]).centre;
     if (!is_finite(centre)) return false;
@@ -192,7 +218,7 @@ class GrowingMesh {
       close_cavity();
       cavity_.push_back(holder);
       is_in_cavity_[holder] = 1;
-      for (std::size_t i = 0; i < cavity_.size() && cavity_.size() < max_cavity && may_grow; ++i)
+      for (std::size_t i = 0; i < cavity_.size() && cavity_.size() < max_cavity_ && may_grow; ++i)
         for (std::uint32_t k = 0; k < 4; ++k) {
           const std::uint32_t behind = neighbours_[4 * cavity_[i] + k];
           if (is_facet_code(behind)) continue;
@@ -292,6 +318,7 @@ class GrowingMesh {
   }
 
   InteriorGoal goal_;
+  std::size_t max_cavity_ = 200;  ///< flat tetrahedra have huge spheres; a cavity need not take all that they reach
   std::vector<Vec3> points_;
   std::vector<Tet> tets_;
   std::vector<std::uint32_t> neighbours_;  ///< per face: code of the face behind, see tet_faces.h
@@ -312,6 +339,15 @@ void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const Int
   GrowingMesh growing(boundary, mesh, goal);
   growing.refine(cancellation);
   growing.write_to(boundary.points.size(), mesh);
+}
+
+std::vector<std::uint32_t> insert_interior_points(const RegionBoundary& boundary, RegionMesh& mesh,
+                                                  std::span<const Vec3> points) {
+  if (points.empty() || mesh.tets.empty()) return {};
+  GrowingMesh growing(boundary, mesh, {});
+  std::vector<std::uint32_t> set = growing.insert(points);
+  growing.write_to(boundary.points.size(), mesh);
+  return set;
 }
 
 }  // namespace strataflow

@@ -1,5 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "base/cancellation.h"
 #include "kernels/volumes/region_boundary.h"
@@ -21,5 +24,11 @@ struct InteriorGoal {
 /// which they arise. Stops early, with a valid mesh short of its goal, when `cancellation` asks for it.
 void refine_interior(const RegionBoundary& boundary, RegionMesh& mesh, const InteriorGoal& goal,
                      const CancellationToken* cancellation = nullptr);
+
+/// Inserts `points` the same way, one after the other, but those that no tetrahedron holds or sees all around: the
+/// result is as near to a constrained Delaunay triangulation as the mesh was. Returns the places of those inserted,
+/// ascending; in this order they follow the interior points so far.
+std::vector<std::uint32_t> insert_interior_points(const RegionBoundary& boundary, RegionMesh& mesh,
+                                                  std::span<const Vec3> points);
 
 }  // namespace strataflow

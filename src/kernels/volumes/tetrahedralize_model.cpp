@@ -1,10 +1,15 @@
 #include "kernels/volumes/tetrahedralize_model.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
+#include <variant>
 
 #include "base/child_process.h"
+#include "graph/parallel/parallel_map.h"
 #include "kernels/volumes/fill_regions.h"
+#include "kernels/volumes/improve_cells.h"
 #include "kernels/volumes/merge_regions.h"
 
 namespace strataflow {
@@ -36,7 +41,8 @@ std::optional<Failure> check(const StructuralModel& model, const TetrahedralizeO
   constexpr double most_cells = 1e8;  // more than any machine holds; faces are counted in 31 bits (tet_faces.h)
   for (const Region& region : model.regions) {
     const auto own = options.region_max_volume_m3.find(region.name);
-    const std::optional<double> largest = own != options.region_max_volume_m3.end() ? std::optional(own->second) : options.max_volume_m3;
+    const std::optional<double> largest =
+        own != options.region_max_volume_m3.end() ? std::optional(own->second) : options.max_volume_m3;
     if (largest && region.volume_m3 > most_cells * *largest)
       return bad("the largest volume asked for makes more than 100 million tetrahedra of region '" + region.name + "'",
                  "raise max_volume_m3 or region_max_volume_m3");
@@ -47,6 +53,23 @@ std::optional<Failure> check(const StructuralModel& model, const TetrahedralizeO
   return std::nullopt;
 }
 
+/// Makes the worst dihedral angles of a region better, without its surfaces. What cannot be verified is left as it was.
+void improve(const RegionBoundary& boundary, double volume_m3, double min_dihedral_deg, RegionMesh& mesh) {
+  ImprovableCells cells;
+  cells.points = boundary.coordinates;
+  cells.is_free.assign(cells.points.size(), 0);
+  cells.points.insert(cells.points.end(), mesh.interior_points.begin(), mesh.interior_points.end());
+  cells.is_free.resize(cells.points.size(), 1);
+  cells.tets = mesh.tets;
+  cells.facets = boundary.facets;
+  cells.measure = TetMeasure::smallest_sine;
+  cells.worth_a_point = std::sin(min_dihedral_deg * std::numbers::pi / 180);
+  cells.good_enough = 2 * cells.worth_a_point;
+  improve_cells(cells);
+  auto verdict = verified_region_mesh(boundary, cells.points, cells.tets, volume_m3);
+  if (RegionMesh* better = std::get_if<RegionMesh>(&verdict)) mesh = std::move(*better);
+}
+
 }  // namespace
 
 Result<VolumeMesh> tetrahedralize_model(const StructuralModel& model, const TetrahedralizeOptions& options,
@@ -55,6 +78,10 @@ Result<VolumeMesh> tetrahedralize_model(const StructuralModel& model, const Tetr
   Result<FilledRegions> filled = fill_regions(model, options, AttemptPlan{},
                                               worker.empty() ? program_folder() / "tet_worker" : worker, cancellation);
   if (!filled) return filled.failure();
+  if (options.min_dihedral_deg)
+    parallel_ranges(model.regions.size(), 1, [&](std::size_t r, std::size_t) {
+      improve(filled->boundaries[r], model.regions[r].volume_m3, *options.min_dihedral_deg, filled->meshes[r]);
+    });
   return merged_regions(model, std::move(*filled));
 }
 

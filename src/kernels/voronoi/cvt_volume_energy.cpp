@@ -12,9 +12,9 @@ namespace strataflow {
 
 namespace {
 
-/// Of a tetrahedron given by its corners relative to the site, and its signed volume.
-void add_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, CvtShare& share) {
-  const double volume = dot(b - a, cross(c - a, d - a)) / 6;
+/// Of a tetrahedron given by its corners relative to the site, with its sign.
+void add_tetrahedron(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d, double density, CvtShare& share) {
+  const double volume = density * (dot(b - a, cross(c - a, d - a)) / 6);
   const Vec3 sum = a + b + c + d;
   share.mass += volume;
   share.moment = share.moment + (volume / 4) * sum;
@@ -37,10 +37,12 @@ void CvtVolumeEnergy::evaluate(const std::vector<Vec3>& sites, bool, CvtTerms& t
       const Tetrahedron& tet = tetrahedra_[t];
       const std::array<Vec3, 4> corners{points_[tet[0]], points_[tet[1]], points_[tet[2]], points_[tet[3]]};
       const std::uint32_t owner = owners_[tet[0]];
+      const double density = density_.empty() ? 1 : density_[t];
       if (owner == owners_[tet[1]] && owner == owners_[tet[2]] && owner == owners_[tet[3]]) {  // cells are convex
         shares.push_back({owner, 0, 0, {}});
         const Vec3& site = sites[owner];
-        add_tetrahedron(corners[0] - site, corners[1] - site, corners[2] - site, corners[3] - site, shares.back());
+        add_tetrahedron(corners[0] - site, corners[1] - site, corners[2] - site, corners[3] - site, density,
+                        shares.back());
         continue;
       }
       cells.cut(corners, owner);
@@ -53,7 +55,8 @@ void CvtVolumeEnergy::evaluate(const std::vector<Vec3>& sites, bool, CvtTerms& t
           const auto ring = piece.rings.subspan(face.first, face.count);
           const Vec3 first = piece.points[ring[0]] - site;
           for (std::size_t k = 2; k < ring.size(); ++k)
-            add_tetrahedron(apex, first, piece.points[ring[k - 1]] - site, piece.points[ring[k]] - site, shares.back());
+            add_tetrahedron(apex, first, piece.points[ring[k - 1]] - site, piece.points[ring[k]] - site, density,
+                            shares.back());
         }
       }
     }

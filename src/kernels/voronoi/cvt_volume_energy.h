@@ -10,13 +10,14 @@ namespace strataflow {
 
 using Tetrahedron = std::array<std::uint32_t, 4>;
 
-/// Energy of sites whose cells are restricted to tetrahedra of positive volume (pellerin2014 §2.4): ∫ |y − site|² over
-/// the volume, m⁵, with its exact gradient. Sums run in the order of tetrahedra, whatever the threads. The spans must
-/// outlive it.
+/// Energy of sites whose cells are restricted to tetrahedra of positive volume (pellerin2014 §2.4): ∫ ρ |y − site|²
+/// over the volume, m⁵, with its exact gradient. ρ: `density` of each tetrahedron, positive; empty: 1 everywhere. Sums
+/// run in the order of tetrahedra, whatever the threads. The spans must outlive it.
 class CvtVolumeEnergy : public SiteEnergy {
  public:
-  CvtVolumeEnergy(std::span<const Vec3> points, std::span<const Tetrahedron> tetrahedra)
-      : points_(points), tetrahedra_(tetrahedra), neighbours_(SiteNeighbours::in_volumes) {}
+  CvtVolumeEnergy(std::span<const Vec3> points, std::span<const Tetrahedron> tetrahedra,
+                  std::span<const double> density = {})
+      : points_(points), tetrahedra_(tetrahedra), density_(density), neighbours_(SiteNeighbours::in_volumes) {}
 
   void evaluate(const std::vector<Vec3>& sites, bool with_attraction, CvtTerms& terms) override;
   std::span<const Vec3> points() const override { return points_; }
@@ -25,6 +26,7 @@ class CvtVolumeEnergy : public SiteEnergy {
  private:
   std::span<const Vec3> points_;
   std::span<const Tetrahedron> tetrahedra_;
+  std::span<const double> density_;
   SiteNeighbours neighbours_;
   std::vector<std::uint32_t> owners_;  ///< per point, the last answer
 };

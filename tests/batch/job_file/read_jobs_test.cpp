@@ -196,6 +196,20 @@ INSTANTIATE_TEST_SUITE_P(
                "job.toml:6: unknown key 'mde' in [cut]", "mode"}),
     [](const auto& instance) { return instance.param.name; });
 
+TEST_F(JobFile, says_how_many_sites_lie_inside_hybrid_meshes) {
+  const auto with = [&](const std::string& lines) {
+    return read("[[input]]\nmodel = \"slab\"\n[output]\nproducts = [\"hybrid\"]\n[hybrid]\n" + lines);
+  };
+  EXPECT_FALSE(with("sites = 60\n")->front().hybrid.interior_sites);  // as many as the surfaces ask for
+  EXPECT_EQ(with("interior_sites = 0\n")->front().hybrid.interior_sites, 0);
+  EXPECT_EQ(with("interior_sites = 250\n")->front().hybrid.interior_sites, 250);
+  for (const char* line : {"interior_sites = -1\n", "interior_sites = \"many\"\n"}) {
+    const auto refused = with(line);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(describe(refused.failure()), HasSubstr("interior_sites")) << line;
+  }
+}
+
 TEST_F(JobFile, with_several_problems_names_them_all) {
   const auto jobs = read(with_products("[cut]\nmod = \"auto\"\n[job]\nseed = -1\n"));
   ASSERT_FALSE(jobs);

@@ -266,7 +266,8 @@ TEST_F(Batch, that_is_cancelled_writes_nothing) {
 TEST_F(Batch, quads_that_fail_leave_what_was_reached_beside_the_run_folder) {
   const std::string sharp = "B 4\n0 0\n100 0\n100 100\n0 100\nF 2\n0 50\n90 60\nF 2\n0 50\n80 48\nF 2\n40 0\n45 52\n";
   write_text(scratch_.path() / "sharp.txt", sharp);
-  const std::string text = "[[input]]\nfile = \"sharp.txt\"\n[output]\nproducts = [\"quads\"]\n[quad]\nedge_length_m = 8\n";
+  const std::string text =
+      "[[input]]\nfile = \"sharp.txt\"\n[output]\nproducts = [\"quads\"]\n[quad]\nedge_length_m = 8\n";
   const std::vector<Job> job = jobs("q.toml", text);
   const auto good = run_batch(job, {});
   ASSERT_TRUE(good && !(*good)[0].failure) << describe(*(*good)[0].failure);
@@ -277,8 +278,8 @@ TEST_F(Batch, quads_that_fail_leave_what_was_reached_beside_the_run_folder) {
   ASSERT_TRUE((*bad)[0].failure) << "quads in a corner of 8° need smoothing";
   const fs::path left = out("q.failed");
   EXPECT_THAT((*bad)[0].failure->remedy, HasSubstr(left.string()));
-  for (const char* file : {"report.json", "job.toml", "log.txt", "plan_problem.vtp", "frame_field.vtp", "seamless_map.vtp",
-                           "quantize.vtp"})
+  for (const char* file : {"report.json", "job.toml", "log.txt", "plan_problem.vtp", "frame_field.vtp",
+                           "seamless_map.vtp", "quantize.vtp"})
     EXPECT_GT(fs::file_size(left / file), 0u) << file;
   EXPECT_EQ(nlohmann::json::parse(read_text(left / "report.json"))["status"], "failed");
   EXPECT_EQ(read_text(out("q") / "report.json"), before) << "the run folder is as it was";
@@ -291,18 +292,34 @@ TEST_F(Batch, quads_that_fail_leave_what_was_reached_beside_the_run_folder) {
   EXPECT_EQ(read_text(left / "notes.txt"), "mine");
 }
 
+TEST_F(Batch, curves_laid_into_quads_are_reported_with_what_came_of_it) {
+  write_text(scratch_.path() / "cross.txt", "B 4\n0 0\n100 0\n100 100\n0 100\nF 2\n20 20\n75 66\nF 2\n0 85\n60 85\n");
+  const auto made = run_batch(jobs("c.toml",
+                                   "[[input]]\nfile = \"cross.txt\"\n[output]\nproducts = [\"quads\"]\n[quad]\n"
+                                   "edge_length_m = 10\nloose = [\"F1\"]\n"),
+                              {});
+  ASSERT_TRUE(made && !(*made)[0].failure) << describe(*(*made)[0].failure);
+  const auto quads = nlohmann::json::parse(read_text(out("c") / "report.json"))["quads"];
+  EXPECT_EQ(quads["imprinted"], 1);
+  EXPECT_EQ(quads["imprinted_curves"], nlohmann::json::array({"F1"}));
+  EXPECT_EQ(quads["irregular"].size(), quads["interior_irregular"]);
+  EXPECT_TRUE(quads["irregular"][0]["created"]);
+  EXPECT_THAT(read_text(out("c") / "report.html"), HasSubstr("laid into the quads"));
+}
+
 TEST_F(Batch, jobs_that_fail_before_their_quads_leave_nothing) {
   write_text(scratch_.path() / "empty.pol", "0 0 0\n");
-  const auto bad = run_batch(
-      jobs("e.toml", "[[input]]\nfile = \"empty.pol\"\n[output]\nproducts = [\"quads\"]\n"), {});
+  const auto bad = run_batch(jobs("e.toml", "[[input]]\nfile = \"empty.pol\"\n[output]\nproducts = [\"quads\"]\n"), {});
   ASSERT_TRUE(bad);
   ASSERT_TRUE((*bad)[0].failure);
   EXPECT_FALSE(fs::exists(out("e.failed")));
 }
 
 TEST_F(Batch, frames_are_written_with_their_singular_curves) {
-  const auto made = run_batch(jobs("f.toml", "[[input]]\nmodel = \"slab\"\nresolution_m = 125.0\n[output]\nproducts = "
-                                             "[\"frames\"]\n[frames]\niterations = 2\n"), {});
+  const auto made = run_batch(jobs("f.toml",
+                                   "[[input]]\nmodel = \"slab\"\nresolution_m = 125.0\n[output]\nproducts = "
+                                   "[\"frames\"]\n[frames]\niterations = 2\n"),
+                              {});
   ASSERT_TRUE(made) << describe(made.failure());
   ASSERT_FALSE((*made)[0].failure) << describe(*(*made)[0].failure);
   for (const char* file : {"frames.vtu", "frames_singular.vtp"}) EXPECT_GT(fs::file_size(out("f") / file), 0u) << file;

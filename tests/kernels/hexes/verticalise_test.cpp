@@ -62,7 +62,7 @@ TEST(Verticalise, sets_a_plane_fault_of_60_degrees_upright) {
   EXPECT_FALSE(upright.is_identity);
   expect_upright(model.tets, upright);
   // The field follows the dip on the fault (R5); all of the fault's points come to lie on one line north.
-  const std::vector<Vec3> field = gravity_field(model.tets);
+  const std::vector<Vec3> field = gravity_field(model.tets, upright.sheets);
   for (const WallSheets::Wall& wall : upright.sheets.walls) {
     const auto& [a, b, c] = wall.vertices;
     Vec3 n = cross(model.tets.points[b] - model.tets.points[a], model.tets.points[c] - model.tets.points[a]);
@@ -98,7 +98,8 @@ TEST(Verticalise, sets_a_listric_fault_upright_without_turning_anything_over) {
 TEST(Verticalise, is_the_same_on_every_schedule) {
   const LevelledTets model = walled(*listric_fault(), 150);
   const UprightPlan expected = upright_plan(model.tets);
-  support::on_every_schedule([&](const char* schedule) { EXPECT_EQ(upright_plan(model.tets).plan, expected.plan) << schedule; });
+  support::on_every_schedule(
+      [&](const char* schedule) { EXPECT_EQ(upright_plan(model.tets).plan, expected.plan) << schedule; });
 }
 
 }  // namespace

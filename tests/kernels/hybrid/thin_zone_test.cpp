@@ -32,7 +32,7 @@ VolumeMesh mesh_of(const support::Plate& plate, const ThinZone& zone) {
 void expect_sound(const support::Plate& plate, const ThinZone& zone) {
   const VolumeMesh mesh = mesh_of(plate, zone);
   EXPECT_EQ(match_cell_faces(mesh).nonconforming_faces, 0u);
-  for (const ThinCell& cell : zone.cells) EXPECT_EQ(state_of(cell, mesh.points), CellState::sound);
+  for (const ThinCell& cell : zone.cells) EXPECT_EQ(state_of(cell, mesh.points), ThinCellState::sound);
 }
 
 TEST(BuildThinZone, fills_a_plate_with_prisms_alone) {  // X11

@@ -216,6 +216,7 @@ TEST(SimulationGrid, refuses_what_it_cannot_honour) {
   EXPECT_EQ(code(sand, Faults{}, {GridLayout::automatic, 0.0}), FailureCode::invalid_options);
   EXPECT_EQ(code(std::vector<RegionRock>{{"sand", 1.5}}, Faults{}, {}), FailureCode::invalid_options);
   EXPECT_EQ(code(std::vector<RegionRock>{}, Faults{}, {}), FailureCode::invalid_input);
+  EXPECT_EQ(code(sand, Faults{}, {GridLayout::unstructured, {}, 2}), FailureCode::unsupported);
   EXPECT_EQ(build_simulation_grid(HexGrid{}, sand, {}).failure().code, FailureCode::invalid_input);
 }
 

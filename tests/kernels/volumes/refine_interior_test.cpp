@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "kernels/volumes/tet_faces.h"
 #include "model/volume_mesh.h"
 
@@ -100,6 +102,35 @@ TEST(TetFaces, every_face_knows_its_partner_or_the_side_of_its_facet) {
       EXPECT_EQ(octahedron.mesh.facet_tets[facet_of_code(behind[face])][side_of_code(behind[face])], face / 4);
     else
       EXPECT_EQ(behind[behind[face]], face);
+  }
+}
+
+TEST(InsertInteriorPoints, sets_what_lies_inside_and_keeps_a_valid_mesh) {
+  for (const bool has_dangling_square : {false, true}) {
+    Octahedron octahedron(has_dangling_square);
+    const std::size_t before = octahedron.mesh.interior_points.size();
+    const std::vector<Vec3> points{{0.2, 0.1, 0.3}, {2, 0, 0}, {-0.1, 0.2, -0.4}, {-0.25, -0.2, 0.2}};
+    EXPECT_EQ(insert_interior_points(octahedron.boundary, octahedron.mesh, points),
+              (std::vector<std::uint32_t>{0, 2, 3}));
+    ASSERT_EQ(octahedron.mesh.interior_points.size(), before + 3);
+    EXPECT_EQ(octahedron.mesh.interior_points[before + 1], points[2]);
+    auto verdict = verified_region_mesh(octahedron.boundary, octahedron.points(), octahedron.mesh.tets, 4.0 / 3);
+    EXPECT_TRUE(std::holds_alternative<RegionMesh>(verdict));
+  }
+}
+
+TEST(InsertInteriorPoints, leaves_empty_spheres_where_they_were_empty) {
+  Octahedron octahedron(false);  // its corners and middle are Delaunay
+  std::vector<Vec3> points;
+  for (int i = 0; i < 40; ++i)
+    points.push_back({0.45 * std::sin(2.1 * i), 0.45 * std::cos(3.7 * i), 0.08 * std::sin(i)});
+  ASSERT_EQ(insert_interior_points(octahedron.boundary, octahedron.mesh, points).size(), 40u);
+  const std::vector<Vec3> p = octahedron.points();
+  for (const Tet& t : octahedron.mesh.tets) {
+    const Vec3 u = p[t[1]] - p[t[0]], v = p[t[2]] - p[t[0]], w = p[t[3]] - p[t[0]];
+    const Vec3 centre = p[t[0]] + (0.5 / dot(cross(u, v), w)) *
+                                      (dot(w, w) * cross(u, v) + dot(v, v) * cross(w, u) + dot(u, u) * cross(v, w));
+    for (const Vec3& other : p) EXPECT_GE(length(other - centre), (1 - 1e-9) * length(p[t[0]] - centre));
   }
 }
 

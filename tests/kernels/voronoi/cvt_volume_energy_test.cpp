@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "graph/parallel/schedule.h"
@@ -53,6 +54,20 @@ TEST(CvtVolumeEnergy, gradient_agrees_with_differences_of_the_energy) {
       EXPECT_NEAR((above.quantization - below.quantization) / (2 * step), terms.quantization_gradient[i][axis],
                   1e-6 * largest);
     }
+}
+
+TEST(CvtVolumeEnergy, is_drawn_to_where_tetrahedra_are_dense) {
+  const TetrahedralBox box = tetrahedral_box({0, 0, 0}, {2, 1, 1}, 2);  // two cubes of six tetrahedra each
+  std::vector<double> density(box.tetrahedra.size(), 1);
+  std::fill_n(density.begin(), 6, 3.0);
+  CvtTerms terms, even;
+  CvtVolumeEnergy(box.points, box.tetrahedra, density).evaluate({{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}}, false, terms);
+  CvtVolumeEnergy(box.points, box.tetrahedra).evaluate({{0.5, 0.5, 0.5}, {1.5, 0.5, 0.5}}, false, even);
+  EXPECT_NEAR(terms.mass[0], 3, 1e-14);
+  EXPECT_NEAR(terms.mass[1], 1, 1e-14);
+  EXPECT_NEAR(terms.quantization, 2 * even.quantization, 1e-14);
+  CvtVolumeEnergy(box.points, box.tetrahedra, density).evaluate({{1, 0.5, 0.5}}, false, terms);
+  EXPECT_NEAR(terms.centroid[0].x, (3 * 0.5 + 1.5) / 4, 1e-14);
 }
 
 TEST(CvtVolumeEnergy, eight_sites_in_a_cube_end_in_the_middle_of_its_octants) {

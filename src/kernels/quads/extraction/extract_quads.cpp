@@ -27,7 +27,7 @@ class QuadExtraction {
       is_free_ = is_free_ || (exact.opposite[h] == no_index && map.axes[h] == MapAxis::none);
   }
 
-  Result<QuadMesh> run() {
+  Result<void> run() {
     quads_.local_origin = mesh_.local_origin;
     quads_.features = mesh_.features;
     quads_.changes = mesh_.changes;
@@ -40,7 +40,13 @@ class QuadExtraction {
     const Result<void> manifold = check_quads(quads_);
     if (!manifold) return manifold.failure();
     if (const auto failure = check_topology()) return *failure;
-    return std::move(quads_);
+    return {};
+  }
+
+  void take(QuadsOnGrid& out) {
+    out.quads = std::move(quads_);
+    out.vertex_of = std::move(vertex_of_);
+    out.first_port = std::move(first_port_);
   }
 
  private:
@@ -89,6 +95,7 @@ class QuadExtraction {
       if (at != p) return not_quads("a cell of the grid is no quad at " + place(graph_.positions[cell[0]]));
       for (count = 0; count < 4; ++count, at = next_step(at)) is_used[at] = 1;
       quads_.quads.push_back(cell);
+      first_port_.push_back(p);
     }
     return std::nullopt;
   }
@@ -106,11 +113,16 @@ class QuadExtraction {
       std::vector<std::uint32_t> open(graph_.vertices.size(), 0);
       for (const auto& s : sides)
         if (!std::binary_search(sides.begin(), sides.end(), std::array<std::uint32_t, 2>{s[1], s[0]})) ++open[s[0]];
-      std::erase_if(quads_.quads, [&](const std::array<std::uint32_t, 4>& quad) {
-        const bool hangs = std::any_of(quad.begin(), quad.end(), [&](std::uint32_t p) { return open[p] > 1; });
-        any = any || hangs;
-        return hangs;
-      });
+      std::size_t kept = 0;
+      for (std::size_t q = 0; q < quads_.quads.size(); ++q) {
+        const auto& quad = quads_.quads[q];
+        if (std::any_of(quad.begin(), quad.end(), [&](std::uint32_t p) { return open[p] > 1; })) continue;
+        first_port_[kept] = first_port_[q];
+        quads_.quads[kept++] = quad;
+      }
+      any = kept < quads_.quads.size();
+      quads_.quads.resize(kept);
+      first_port_.resize(kept);
     }
     if (before > quads_.quads.size())
       quads_.changes.push_back({"trimmed", std::to_string(before - quads_.quads.size()) + " quads",
@@ -240,16 +252,29 @@ class QuadExtraction {
   QuadMesh quads_;
   std::vector<std::array<std::uint32_t, 2>> sides_;  ///< of quads, ascending inside and between
   std::vector<std::uint32_t> vertex_of_;             ///< per point of quads_
+  std::vector<std::uint32_t> first_port_;            ///< per quad
 };
 
 }  // namespace
 
-Result<QuadMesh> extract_quads(const FeatureMesh& mesh, const CornerMap& map) {
-  const Result<GridMap> exact = exact_grid_map(mesh, map);
+Result<QuadsOnGrid> extract_quads_on_grid(const FeatureMesh& mesh, const CornerMap& map) {
+  Result<GridMap> exact = exact_grid_map(mesh, map);
   if (!exact) return exact.failure();
-  const Result<GridGraph> graph = trace_grid(mesh, *exact);
+  Result<GridGraph> graph = trace_grid(mesh, *exact);
   if (!graph) return graph.failure();
-  return QuadExtraction(mesh, map, *exact, *graph).run();
+  QuadsOnGrid out;
+  QuadExtraction extraction(mesh, map, *exact, *graph);
+  if (const Result<void> done = extraction.run(); !done) return done.failure();
+  extraction.take(out);
+  out.map = std::move(*exact);
+  out.graph = std::move(*graph);
+  return out;
+}
+
+Result<QuadMesh> extract_quads(const FeatureMesh& mesh, const CornerMap& map) {
+  Result<QuadsOnGrid> out = extract_quads_on_grid(mesh, map);
+  if (!out) return out.failure();
+  return std::move(out->quads);
 }
 
 }  // namespace strataflow

@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "base/id.h"
-#include "kernels/adapters/sparse/pattern_system.h"
+#include "kernels/quads/field/compartment_system.h"
 #include "kernels/quads/field/straighten_angles.h"
 
 namespace strataflow {
@@ -72,7 +72,7 @@ Result<std::vector<double>> smooth_cross_field(const FeatureMesh& mesh, const Fe
     // Without any feature nothing drives the field: it starts along the edges and diffuses.
     if (!has_feature[layout.compartment[t]]) z[t] = 1.0;
   }
-  auto system = PatternSystem<Complex>::analyse(starts, std::move(rows));
+  auto system = CompartmentSystem<Complex>::analyse(starts, rows);
   if (!system) return system.failure();
   if (auto factorized = system->factorize(values); !factorized) return factorized.failure();
   for (std::int64_t step = 0; step <= options.diffusions; ++step) {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "base/id.h"
-#include "kernels/adapters/sparse/pattern_system.h"
+#include "kernels/quads/field/compartment_system.h"
 #include "kernels/quads/field/straighten_angles.h"
 
 namespace strataflow {
@@ -78,7 +78,7 @@ Result<std::vector<std::array<double, 2>>> smooth_frames(const FeatureMesh& mesh
     if (i != no_index && j != no_index) values[slots[slot++]] -= link.weight;
   }
   for (std::uint32_t i = 0; i < unknowns; ++i) values[starts[i]] += 1e-9;
-  auto system = PatternSystem<double>::analyse(std::move(starts), std::move(rows));
+  auto system = CompartmentSystem<double>::analyse(starts, rows);
   if (!system) return system.failure();
   if (auto factorized = system->factorize(values); !factorized) return factorized.failure();
   const std::vector<double> x = system->solve(right);

@@ -7,7 +7,7 @@
 #include <queue>
 
 #include "base/id.h"
-#include "kernels/adapters/sparse/pattern_system.h"
+#include "kernels/quads/field/compartment_system.h"
 
 namespace strataflow {
 
@@ -120,7 +120,7 @@ Result<std::vector<double>> straighten_angles(const FeatureMesh& mesh, const Fea
     values[starts[n]] = diagonal[n];
     if (layout.node_kind[n] == NodeKind::open) gain[n] = 0;
   }
-  auto system = PatternSystem<double>::analyse(std::move(starts), std::move(rows));
+  auto system = CompartmentSystem<double>::analyse(starts, rows);
   if (!system) return system.failure();
   if (auto factorized = system->factorize(values); !factorized) return factorized.failure();
   const std::vector<double> potential = system->solve(gain);

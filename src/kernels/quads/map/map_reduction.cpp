@@ -150,7 +150,7 @@ std::vector<double> MapReduction::scalars(const std::vector<double>& x) const {
 
 Result<MapReduction> reduce_map(const FeatureMesh& mesh, const FeatureLayout& layout,
                                 const std::vector<std::uint8_t>& turns, const std::vector<MapAxis>& axes,
-                                const std::vector<IntegerConstraint>& constraints) {
+                                const std::vector<IntegerConstraint>& constraints, std::vector<std::uint32_t>* stuck) {
   const auto half_edges = static_cast<std::uint32_t>(3 * layout.triangle_count());
   const auto misfit = [](const std::string& what) {
     return Failure{FailureCode::invalid_input, what, "build the map from the field of the same mesh"};
@@ -266,10 +266,12 @@ Result<MapReduction> reduce_map(const FeatureMesh& mesh, const FeatureLayout& la
   for (std::uint32_t h = 0; h < half_edges; ++h) {
     if (axes[h] == MapAxis::none) continue;
     const std::uint32_t s = 1 - constant_axis(h);
-    if (elimination.resolve(2 * charts.place_of[h] + s) == elimination.resolve(2 * end_place(h) + s))
+    if (elimination.resolve(2 * charts.place_of[h] + s) == elimination.resolve(2 * end_place(h) + s)) {
+      if (stuck) stuck->push_back(h / 3);
       return contradiction(name_feature(mesh, layout, h) + " would get length zero between " +
                            name_point(mesh, charts.origin(h)) + " and " +
                            name_point(mesh, charts.origin(next_half_edge(h))));
+    }
   }
 
   std::vector<std::uint32_t> number(variables, no_index);

@@ -35,9 +35,10 @@ struct MapReduction {
 /// Eliminates exactly: seams U_h = i^turns U_succ(opp h) + t with free t (no cut and no t where charts agree), feature
 /// edges on their axes, `constraints`, and a pin for what is still free to slide as a whole. Fails with
 /// geometry_failed, naming feature and place, when constraints contradict each other or squeeze a feature to length
-/// zero; invalid_input when arrays do not fit the mesh.
+/// zero (`stuck` gets its triangle); invalid_input when arrays do not fit the mesh.
 Result<MapReduction> reduce_map(const FeatureMesh& mesh, const FeatureLayout& layout,
                                 const std::vector<std::uint8_t>& turns, const std::vector<MapAxis>& axes,
-                                const std::vector<IntegerConstraint>& constraints = {});
+                                const std::vector<IntegerConstraint>& constraints = {},
+                                std::vector<std::uint32_t>* stuck = nullptr);
 
 }  // namespace strataflow

@@ -84,7 +84,7 @@ MapDefects map_defects(const FeatureMesh& mesh, const FeatureLayout& layout, con
 /// A valid map from X, or why it is none.
 Result<OptimisedMap> map_from(const FeatureMesh& mesh, const FeatureLayout& layout, const MapReduction& reduction,
                               const FrameField& field, MapEnergy& energy, Result<std::vector<double>> x,
-                              const FoldoverFreeOptions& options) {
+                              const FoldoverFreeOptions& options, std::vector<std::uint32_t>* stuck) {
   if (!x) return x.failure();
   const Result<FoldoverFreeReport> done = make_foldover_free(energy, *x, options);
   if (!done) return done.failure();
@@ -110,6 +110,7 @@ Result<OptimisedMap> map_from(const FeatureMesh& mesh, const FeatureLayout& layo
     const Complex a = u[1] - u[0], b = u[2] - u[0];
     if (!(a.real() * b.imag() - a.imag() * b.real() > 0)) {
       if (flipped++ == 0) worst = t;
+      if (stuck) stuck->push_back(t);
     }
   }
   if (flipped)
@@ -119,12 +120,15 @@ Result<OptimisedMap> map_from(const FeatureMesh& mesh, const FeatureLayout& layo
                        name_point(mesh, mesh.triangles[worst][0]) + " near " + nearest_feature(mesh, layout, worst),
                    "refine the triangles there, ask for smaller quads, or leave that feature out"};
   // Positive triangles may still wind around a point twice (coudert2024 R16).
-  if (const MapDefects defects = map_defects(mesh, layout, map); defects.wrong_angles)
+  if (const MapDefects defects = map_defects(mesh, layout, map); defects.wrong_angles) {
+    for (std::uint32_t h = 0; stuck && h < corners; ++h)
+      if (mesh.triangles[h / 3][h % 3] == defects.first_wrong_point) stuck->push_back(h / 3);
     return Failure{FailureCode::geometry_failed,
                    "the map winds around " + name_point(mesh, defects.first_wrong_point) + " other than its valence " +
                        std::to_string(map.valence[defects.first_wrong_point]) + " says, and around " +
                        std::to_string(defects.wrong_angles - 1) + " other points",
                    "refine the triangles there, ask for smaller quads, or leave a feature out"};
+  }
   return result;
 }
 
@@ -132,7 +136,7 @@ Result<OptimisedMap> map_from(const FeatureMesh& mesh, const FeatureLayout& layo
 
 Result<OptimisedMap> optimise_map(const FeatureMesh& mesh, const FrameField& field,
                                   const std::vector<IntegerConstraint>& constraints, const CornerMap* start,
-                                  const FoldoverFreeOptions& options) {
+                                  const FoldoverFreeOptions& options, std::vector<std::uint32_t>* stuck) {
   const Result<FeatureLayout> layout = build_feature_layout(mesh);
   if (!layout) return layout.failure();
   const std::size_t corners = 3 * layout->triangle_count();
@@ -140,12 +144,14 @@ Result<OptimisedMap> optimise_map(const FeatureMesh& mesh, const FrameField& fie
       (start && start->uv.size() != corners) || !(mesh.edge_length_m > 0))
     return Failure{FailureCode::invalid_input, "field, start or edge length do not fit the mesh",
                    "build the map from the field of the same mesh"};
-  const Result<MapReduction> reduction = reduce_map(mesh, *layout, field.turns, field.axes, constraints);
+  const Result<MapReduction> reduction = reduce_map(mesh, *layout, field.turns, field.axes, constraints, stuck);
   if (!reduction) return reduction.failure();
   Result<MapEnergy> energy = MapEnergy::build(*layout, *reduction, mesh.edge_length_m);
   if (!energy) return energy.failure();
   const auto finished = [&](Result<std::vector<double>> x) {
-    return map_from(mesh, *layout, *reduction, field, *energy, std::move(x), options);
+    // What the first start left folded is told.
+    return map_from(mesh, *layout, *reduction, field, *energy, std::move(x), options,
+                    stuck && stuck->empty() ? stuck : nullptr);
   };
   std::vector<Failure> failures;
   const auto is_over = [&](const Result<OptimisedMap>& map) {

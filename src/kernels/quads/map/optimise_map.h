@@ -32,11 +32,13 @@ struct OptimisedMap {
 /// A valid map of the mesh that follows the field's turns and axes and all `constraints`: every triangle has positive
 /// area, features lie on isolines exactly (coudert2024 S35, S43, S44). Without constraints it is seamless; with those
 /// of a quantization it is grid-preserving. Integrates the field, then optimises; `start`, a map with the same turns,
-/// is carried over to the constraints instead (carry_map), and only where that gets stuck a new start is made from it. Fails with geometry_failed, naming the feature
-/// and the place, when constraints contradict each other or triangles stay flipped.
+/// is carried over to the constraints instead (carry_map), and only where that gets stuck a new start is made from it.
+/// Fails with geometry_failed, naming the feature and the place, when constraints contradict each other or triangles
+/// stay flipped; `stuck` gets these triangles.
 Result<OptimisedMap> optimise_map(const FeatureMesh& mesh, const FrameField& field,
                                   const std::vector<IntegerConstraint>& constraints = {},
-                                  const CornerMap* start = nullptr, const FoldoverFreeOptions& options = {});
+                                  const CornerMap* start = nullptr, const FoldoverFreeOptions& options = {},
+                                  std::vector<std::uint32_t>* stuck = nullptr);
 
 /// Where a map fails its own rules, for tests and for the report of failures (R13).
 struct MapDefects {

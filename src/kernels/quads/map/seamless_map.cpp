@@ -12,14 +12,17 @@ std::vector<FrameFieldOptions> alternative_fields(const FrameFieldOptions& asked
 }
 
 Result<FieldAndMap> compute_seamless_map(const FeatureMesh& mesh, const FrameFieldOptions& field_options,
-                                         const FoldoverFreeOptions& map_options) {
+                                         const FoldoverFreeOptions& map_options, std::vector<std::uint32_t>* stuck,
+                                         std::size_t first) {
   FieldAndMap result;
   std::vector<Failure> failures;
-  for (const FrameFieldOptions& options : alternative_fields(field_options)) {
-    Result<FrameFieldResult> field = compute_frame_field(mesh, options);
+  const std::vector<FrameFieldOptions> fields = alternative_fields(field_options);
+  for (std::size_t k = first; k < fields.size(); ++k) {
+    Result<FrameFieldResult> field = compute_frame_field(mesh, fields[k]);
     if (!field && field.failure().code == FailureCode::invalid_input) return field.failure();
     if (field) {
-      Result<OptimisedMap> map = optimise_map(mesh, field->field, {}, nullptr, map_options);
+      Result<OptimisedMap> map =
+          optimise_map(mesh, field->field, {}, nullptr, map_options, failures.empty() ? stuck : nullptr);
       if (map) {
         result.field = std::move(*field);
         result.map = std::move(*map);
@@ -32,7 +35,8 @@ Result<FieldAndMap> compute_seamless_map(const FeatureMesh& mesh, const FrameFie
     }
     if (map_options.is_cancelled && map_options.is_cancelled()) break;
   }
-  return failures.front();
+  return failures.empty() ? Failure{FailureCode::invalid_options, "no such field", "begin with an earlier one"}
+                          : failures.front();
 }
 
 }  // namespace strataflow

@@ -505,6 +505,7 @@ class Imprint {
         const Vec3& a = mesh_.points[flat_.origin[n.edge]];
         const Vec3& b = mesh_.points[flat_.end(n.edge)];
         out.mesh.points.push_back((1 - n.along_edge) * a + n.along_edge * b);
+        out.on_edge.push_back({flat_.origin[n.edge], flat_.end(n.edge)});
       }
     }
     out.map.valence = map_.valence;

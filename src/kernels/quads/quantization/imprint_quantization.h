@@ -1,4 +1,8 @@
 #pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
 #include "base/result.h"
 #include "kernels/quads/quantization/quantize_map.h"
 #include "model/corner_map.h"
@@ -9,7 +13,8 @@ namespace strataflow {
 /// A grid-preserving map on a refinement of the mesh it came from.
 struct ImprintedMap {
   FeatureMesh mesh;  ///< the same points first, then points on its edges; features, corners and axes unchanged
-  CornerMap map;     ///< transitions exact in double arithmetic, all translations and kept points integers
+  std::vector<std::array<std::uint32_t, 2>> on_edge;  ///< per new point: the ends of the edge that it lies on
+  CornerMap map;  ///< transitions exact in double arithmetic, all translations and kept points integers
 };
 
 /// Direct transfer (coudert2024 S43): lays the decimated triangles over the mesh, along straight paths in the map,

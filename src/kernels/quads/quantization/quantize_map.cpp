@@ -149,9 +149,14 @@ Result<Quantization> quantize_map(const FeatureMesh& mesh, const CornerMap& map,
   if (!integers) return integers.failure();
   q.integers = std::move(*integers);
   const FlatMesh& m = q.decimated.mesh;
-  std::vector<std::uint8_t> is_unmet(mesh.features.size(), 0);
+  std::vector<std::uint8_t> is_unmet(mesh.features.size(), 0), is_unaligned(mesh.features.size(), 0);
   for (const std::uint32_t h : q.integers.unmet) {
-    for (const std::uint32_t f : m.curve_features[m.curve[h]]) is_unmet[f] = 1;
+    const GaussianInteger v = q.integers.vectors[h];
+    const bool is_off = (m.axis[h] == MapAxis::real && v.im != 0) || (m.axis[h] == MapAxis::imaginary && v.re != 0);
+    for (const std::uint32_t f : m.curve_features[m.curve[h]]) {
+      is_unmet[f] = 1;
+      if (is_off) is_unaligned[f] = 1;
+    }
     if (m.curve[h] != 0) continue;
     for (std::uint32_t f = 0; f < mesh.features.size(); ++f)  // an edge across a strip
       if (mesh.features[f].strip_quads != 0)
@@ -165,6 +170,8 @@ Result<Quantization> quantize_map(const FeatureMesh& mesh, const CornerMap& map,
   }
   for (std::uint32_t f = 0; f < is_unmet.size(); ++f)
     if (is_unmet[f]) q.unmet_features.push_back(f);
+  for (std::uint32_t f = 0; f < is_unaligned.size(); ++f)
+    if (is_unaligned[f]) q.unaligned_features.push_back(f);
   write_constraints(map, scale, q);
   return q;
 }

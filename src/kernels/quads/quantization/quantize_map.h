@@ -31,6 +31,7 @@ struct Quantization {
   std::vector<IntegerConstraint> constraints;
   std::uint32_t offsets = 0;                  ///< number of Y
   std::vector<std::uint32_t> unmet_features;  ///< features that could not be aligned or given their rows, ascending
+  std::vector<std::uint32_t> unaligned_features{};  ///< of these, those that could not be aligned
 };
 
 /// Algorithm 4 (S37): decimation with tracked forms, Algorithm 5, constraints. `map` is seamless in units of one quad:

@@ -51,11 +51,6 @@ GuardedMesh::GuardedMesh(const InputSurfaces& inputs, const GuardOptions& option
       surface_of_(inputs.model().triangle_surface) {
   const StructuralModel& model = inputs.model();
   const std::size_t vertices = points_.size(), triangles = triangles_.size();
-  Box3 box;
-  for (const Vec3& p : points_) box.take(p);
-  grid_ = TriangleGrid(box, cell_edges * options.cell_m, std::max<std::size_t>(1u << 20, 4 * triangles));
-  head_.assign(vertices, no_index);
-  next_.assign(3 * triangles, no_index);
   first_sample_.assign(triangles, no_index);
   source_.resize(triangles);
   changed_at_.assign(triangles, 0);
@@ -63,18 +58,17 @@ GuardedMesh::GuardedMesh(const InputSurfaces& inputs, const GuardOptions& option
   seen_mark_.assign(triangles, 0);
   vertex_mark_.assign(vertices, 0);
   size_m_.assign(vertices, options.cell_m);
-  for (std::uint32_t t = 0; t < triangles; ++t) {
-    source_[t] = t;
-    link_triangle(t);
-  }
+  for (std::uint32_t t = 0; t < triangles; ++t) source_[t] = t;
+  link_all();
   find_kinds();
   note_radial_orders();
-  flat_turn_.assign(model.surfaces.size(), 0);
+  std::vector<int>& flat_turn = frame_->flat_turn;
+  flat_turn.assign(model.surfaces.size(), 0);
   for (std::uint32_t s = 0; s < model.surfaces.size(); ++s)
     if (const int axis = inputs.flat_axis(s); axis >= 0)
       for (std::uint32_t t = model.surfaces[s].first_triangle; t < model.surfaces[s].end_triangle; ++t)
-        if (flat_turn_[s] == 0)
-          flat_turn_[s] =
+        if (flat_turn[s] == 0)
+          flat_turn[s] =
               orientation_2d(points_[triangles_[t][0]], points_[triangles_[t][1]], points_[triangles_[t][2]], axis);
   place_samples();
   find_pieces();
@@ -86,17 +80,19 @@ void GuardedMesh::find_pieces() {
     sets.unite(t[0], t[1]);
     sets.unite(t[0], t[2]);
   }
+  std::vector<FloatBox>& pieces = frame_->pieces;
   std::vector<std::uint32_t> piece(points_.size(), no_index);
   for (const Surface& surface : inputs_.model().surfaces) {
     std::uint32_t& p = piece[sets.find(triangles_[surface.first_triangle][0])];
     if (p == no_index) {
-      p = static_cast<std::uint32_t>(pieces_.size());
-      pieces_.push_back(FloatBox::nothing());
+      p = static_cast<std::uint32_t>(pieces.size());
+      pieces.push_back(FloatBox::nothing());
     }
-    piece_of_.push_back(p);
-    for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t) widen(pieces_[p], grid_.box(t));
+    frame_->piece_of.push_back(p);
+    for (std::uint32_t t = surface.first_triangle; t < surface.end_triangle; ++t)
+      widen(pieces[p], box_of(triangles_[t]));
   }
-  if (pieces_.size() < 2) pieces_.clear();
+  if (pieces.size() < 2) pieces.clear();
 }
 
 void GuardedMesh::place_samples() {
@@ -136,7 +132,6 @@ void GuardedMesh::find_kinds() {
     is_fixed_[v] = 1;
   }
   std::vector<std::uint32_t> line_count(model.corners.size() + 1, 0);
-  line_ends_.resize(model.lines.size());
   for (std::uint32_t i = 0; i < model.lines.size(); ++i) {
     const Line& line = model.lines[i];
     const std::size_t n = line.vertices.size();
@@ -147,16 +142,16 @@ void GuardedMesh::find_kinds() {
         owner_[v] = i;
         arc_m_[v] = inputs_.arc_of(i, k);
       }
-    for (std::size_t k = 0; k < line_edges_[i]; ++k) link_line(i, line.vertices[k], line.vertices[(k + 1) % n]);
+    for (std::size_t k = 0; k < line_edges_[i]; ++k) link_line(line.vertices[k], line.vertices[(k + 1) % n]);
     if (!line.is_closed())
       for (const std::uint32_t c : line.corners) ++line_count[c + 1];
   }
   for (std::size_t c = 0; c < model.corners.size(); ++c) line_count[c + 1] += line_count[c];
-  first_corner_line_ = line_count;
-  corner_lines_.resize(line_count.back());
+  frame_->first_corner_line = line_count;
+  frame_->corner_lines.resize(line_count.back());
   for (std::uint32_t i = 0; i < model.lines.size(); ++i)
     if (!model.lines[i].is_closed())
-      for (const std::uint32_t c : model.lines[i].corners) corner_lines_[line_count[c]++] = i;
+      for (const std::uint32_t c : model.lines[i].corners) frame_->corner_lines[line_count[c]++] = i;
 
   // A vertex whose triangles do not form one fan per surface side between lines is more than its kind says: it stays.
   std::vector<std::uint32_t> fan;
@@ -201,7 +196,8 @@ void GuardedMesh::find_kinds() {
 
 void GuardedMesh::note_radial_orders() {
   const StructuralModel& model = inputs_.model();
-  radial_.resize(model.lines.size());
+  std::vector<std::vector<std::uint32_t>>& radial = frame_->radial;
+  radial.resize(model.lines.size());
   for (std::uint32_t i = 0; i < model.lines.size(); ++i) {
     const Line& line = model.lines[i];
     if (line.surfaces.size() < 3) continue;
@@ -211,11 +207,11 @@ void GuardedMesh::note_radial_orders() {
       begin_change();
       if (k == 0) {
         has_radial_order(i, a, b);
-        radial_[i] = leaf_words_;
+        radial[i] = leaf_words_;
       } else if (!has_radial_order(i, a, b)) {
-        radial_[i].clear();
+        radial[i].clear();
       }
-      if (radial_[i].empty()) break;
+      if (radial[i].empty()) break;
     }
   }
 }
@@ -224,8 +220,8 @@ std::uint32_t GuardedMesh::line_of_edge(std::uint32_t a, std::uint32_t b) const 
   if (kind_[a] == VertexKind::surface || kind_[b] == VertexKind::surface) return no_index;
   if (kind_[a] == VertexKind::line) return before_[a] == b || after_[a] == b ? owner_[a] : no_index;
   if (kind_[b] == VertexKind::line) return before_[b] == a || after_[b] == a ? owner_[b] : no_index;
-  for (std::uint32_t k = first_corner_line_[owner_[a]]; k < first_corner_line_[owner_[a] + 1]; ++k) {
-    const std::uint32_t i = corner_lines_[k];
+  for (std::uint32_t k = frame_->first_corner_line[owner_[a]]; k < frame_->first_corner_line[owner_[a] + 1]; ++k) {
+    const std::uint32_t i = frame_->corner_lines[k];
     if (line_edges_[i] != 1) continue;
     const auto& ends = inputs_.model().lines[i].corners;
     if (ends[0] == owner_[b] || ends[1] == owner_[b]) return i;
@@ -233,15 +229,9 @@ std::uint32_t GuardedMesh::line_of_edge(std::uint32_t a, std::uint32_t b) const 
   return no_index;
 }
 
-void GuardedMesh::link_line(std::uint32_t line, std::uint32_t a, std::uint32_t b) {
-  if (kind_[a] == VertexKind::line)
-    after_[a] = b;
-  else
-    line_ends_[line][0] = b;
-  if (kind_[b] == VertexKind::line)
-    before_[b] = a;
-  else
-    line_ends_[line][1] = a;
+void GuardedMesh::link_line(std::uint32_t a, std::uint32_t b) {
+  if (kind_[a] == VertexKind::line) after_[a] = b;
+  if (kind_[b] == VertexKind::line) before_[b] = a;
 }
 
 bool GuardedMesh::is_in_line_order(std::uint32_t line, std::uint32_t a, std::uint32_t b) const {
@@ -294,7 +284,24 @@ void GuardedMesh::link_triangle(std::uint32_t t) {
     next_[3 * t + k] = head_[v];
     head_[v] = 3 * t + k;
   }
-  grid_.insert(t, box_of(triangles_[t]));
+}
+
+void GuardedMesh::link_all() {
+  head_.assign(points_.size(), no_index);
+  next_.assign(3 * triangles_.size(), no_index);
+  for (std::uint32_t t = 0; t < triangle_count(); ++t)
+    if (is_alive(t)) link_triangle(t);
+}
+
+void GuardedMesh::fill_grid() {
+  Box3 box;
+  for (std::uint32_t t = 0; t < triangle_count(); ++t)
+    if (is_changeable(t))
+      for (const std::uint32_t v : triangles_[t]) box.take(points_[v]);
+  grid_ = TriangleGrid(box, cell_edges * options_.cell_m, std::max<std::size_t>(1u << 20, 4 * triangles_.size()));
+  for (std::uint32_t t = 0; t < triangle_count(); ++t)
+    if (is_alive(t)) grid_.insert(t, box_of(triangles_[t]));
+  is_grid_filled_ = true;
 }
 
 void GuardedMesh::unlink_triangle(std::uint32_t t) {
@@ -303,7 +310,7 @@ void GuardedMesh::unlink_triangle(std::uint32_t t) {
     while (*link != 3 * t + k) link = &next_[*link];
     *link = next_[3 * t + k];
   }
-  grid_.erase(t);
+  if (is_grid_filled_) grid_.erase(t);
 }
 
 std::uint32_t GuardedMesh::new_mark() { return ++mark_; }
@@ -315,10 +322,10 @@ void GuardedMesh::begin_change() {
   added_.clear();
 }
 
-void GuardedMesh::remove(std::uint32_t t) {
+void GuardedMesh::remove(std::uint32_t t, const ShapeDemand& demand) {
   removed_mark_[t] = change_;
   const Vec3 &a = points_[triangles_[t][0]], &b = points_[triangles_[t][1]], &c = points_[triangles_[t][2]];
-  removed_.push_back({t, quality_of(a, b, c), shape_of(a, b, c), cross(b - a, c - a)});
+  removed_.push_back({t, quality_of(a, b, c), demand.must_raise_mean ? shape_of(a, b, c) : 0, cross(b - a, c - a)});
 }
 
 void GuardedMesh::add(const Triangle& corners, std::uint32_t parent) {
@@ -362,6 +369,7 @@ void GuardedMesh::commit() {
     source_[t] = inherited[k][1];
     changed_at_[t] = steps_;
     link_triangle(t);
+    if (is_grid_filled_) grid_.insert(t, added_[k].box);
     added_[k].parent = t;
   }
   for (const SampleMove& move : sample_moves_) {
@@ -374,7 +382,7 @@ void GuardedMesh::commit() {
 template <class Accepted>
 Verdict GuardedMesh::try_move(std::uint32_t v, const Vec3& to, const ShapeDemand& demand, Accepted&& accepted) {
   begin_change();
-  visit_star(v, [&](std::uint32_t t) { remove(t); });
+  visit_star(v, [&](std::uint32_t t) { remove(t, demand); });
   const Vec3 old = points_[v];
   points_[v] = to;
   for (std::uint32_t k = 0; k < removed_.size(); ++k) add(triangles_[removed_[k].triangle], k);
@@ -387,7 +395,7 @@ Verdict GuardedMesh::try_move(std::uint32_t v, const Vec3& to, const ShapeDemand
   ++steps_;
   for (const Added& added : added_) {
     const std::uint32_t t = removed_[added.parent].triangle;
-    grid_.move(t, added.box);
+    if (is_grid_filled_) grid_.move(t, added.box);
     changed_at_[t] = steps_;
     first_sample_[t] = no_index;
   }
@@ -455,7 +463,7 @@ Verdict GuardedMesh::collapse_edge(std::uint32_t gone, std::uint32_t kept, const
     for (const std::uint32_t w : triangles_[t]) is_free &= vertex_mark_[w] != near_gone;
   });
   if (!is_free) return noted(Verdict::topology);
-  visit_star(gone, [&](std::uint32_t t) { remove(t); });
+  visit_star(gone, [&](std::uint32_t t) { remove(t, demand); });
   for (std::uint32_t k = 0; k < removed_.size(); ++k)
     if (const Triangle& t = triangles_[removed_[k].triangle]; !has(t, kept)) add(with(t, gone, kept), k);
   if (added_.empty() || added_.size() == removed_.size()) return noted(Verdict::topology);
@@ -465,16 +473,16 @@ Verdict GuardedMesh::collapse_edge(std::uint32_t gone, std::uint32_t kept, const
   const std::array<std::uint32_t, 2> around{before_[gone], after_[gone]};
   const auto relink = [&] {
     if (around[0] == kept)
-      link_line(line, kept, around[1]);
+      link_line(kept, around[1]);
     else
-      link_line(line, around[0], kept);
+      link_line(around[0], kept);
     --line_edges_[line];
   };
   if (is_line) {
     relink();
     if (!line_stays_near(line, around[0] == kept ? around[1] : around[0], kept)) {
-      link_line(line, around[0], gone);
-      link_line(line, gone, around[1]);
+      link_line(around[0], gone);
+      link_line(gone, around[1]);
       ++line_edges_[line];
       return noted(Verdict::strayed);
     }
@@ -483,8 +491,8 @@ Verdict GuardedMesh::collapse_edge(std::uint32_t gone, std::uint32_t kept, const
   if (verdict == Verdict::done) {
     commit();
   } else if (is_line) {
-    link_line(line, around[0], gone);
-    link_line(line, gone, around[1]);
+    link_line(around[0], gone);
+    link_line(gone, around[1]);
     ++line_edges_[line];
   }
   return noted(verdict);
@@ -494,9 +502,11 @@ Verdict GuardedMesh::split_edge(std::uint32_t a, std::uint32_t b, const ShapeDem
   if (is_stopped_) return noted(Verdict::fixed);
   begin_change();
   visit_star(a, [&](std::uint32_t t) {
-    if (has(triangles_[t], b)) remove(t);
+    if (has(triangles_[t], b)) remove(t, demand);
   });
   if (removed_.empty()) return noted(Verdict::topology);
+  for (const Removed& r : removed_)
+    if (is_held(r.triangle)) return noted(Verdict::fixed);
   const std::uint32_t line = line_of_edge(a, b), m = vertex_count(), first = removed_[0].triangle;
   const Vec3 middle = 0.5 * (points_[a] + points_[b]);
   InputSurfaces::Place place{source_[first], middle};
@@ -527,8 +537,8 @@ Verdict GuardedMesh::split_edge(std::uint32_t a, std::uint32_t b, const ShapeDem
   head_.push_back(no_index);
   vertex_mark_.push_back(0);
   if (line != no_index) {
-    link_line(line, a, m);
-    link_line(line, m, b);
+    link_line(a, m);
+    link_line(m, b);
     ++line_edges_[line];
   }
   for (std::uint32_t k = 0; k < removed_.size(); ++k) {
@@ -548,7 +558,7 @@ Verdict GuardedMesh::split_edge(std::uint32_t a, std::uint32_t b, const ShapeDem
     return noted(verdict);
   }
   if (line != no_index) {
-    link_line(line, a, b);
+    link_line(a, b);
     --line_edges_[line];
   }
   points_.pop_back();
@@ -569,9 +579,10 @@ Verdict GuardedMesh::flip_edge(std::uint32_t a, std::uint32_t b, const ShapeDema
   if (is_stopped_ || line_of_edge(a, b) != no_index) return noted(Verdict::fixed);
   begin_change();
   visit_star(a, [&](std::uint32_t t) {
-    if (has(triangles_[t], b)) remove(t);
+    if (has(triangles_[t], b)) remove(t, demand);
   });
   if (removed_.size() != 2) return noted(Verdict::topology);
+  if (is_held(removed_[0].triangle) || is_held(removed_[1].triangle)) return noted(Verdict::fixed);
   if (!runs_along(triangles_[removed_[0].triangle], a, b)) std::swap(removed_[0], removed_[1]);
   const Triangle &left = triangles_[removed_[0].triangle], &right = triangles_[removed_[1].triangle];
   if (!runs_along(left, a, b) || !runs_along(right, b, a)) return noted(Verdict::topology);

@@ -3,11 +3,16 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "base/id.h"
 #include "base/result.h"
+#include "graph/parallel/parallel_map.h"
 #include "kernels/remeshing/guarded/input_surfaces.h"
+#include "kernels/remeshing/guarded/space_blocks.h"
 #include "kernels/remeshing/guarded/triangle_grid.h"
 #include "model/structural_model.h"
 #include "model/triangle_soup.h"
@@ -42,10 +47,16 @@ struct ShapeDemand {
 };
 
 struct GuardOptions {
-  double distance_m = 0;         ///< > 0: how far the input may lie from the mesh
-  double turn_angle_deg = 50.0;  ///< (0, 90): how far a triangle may turn away from those it replaces
-  double cell_m = 0;             ///< > 0: about the length of edges to come
-  std::function<bool()> is_cancelled = {};  ///< asked now and then; once true every step is refused
+  double distance_m = 0;                    ///< > 0: how far the input may lie from the mesh
+  double turn_angle_deg = 50.0;             ///< (0, 90): how far a triangle may turn away from those it replaces
+  double cell_m = 0;                        ///< > 0: about the length of edges to come
+  std::function<bool()> is_cancelled = {};  ///< asked now and then, by several threads; once true every step is refused
+};
+
+/// How a mesh is cut for GuardedMesh::in_blocks.
+struct BlockOptions {
+  std::size_t most_triangles = 6000;  ///< of a block; a mesh of no more than three such is not cut
+  double share = 0.5;  ///< in (0.3, 0.7), of the triangles on one side of a cut: another value puts it elsewhere
 };
 
 /// Sine of the smallest angle, 0 for a triangle without area.
@@ -69,6 +80,8 @@ class GuardedMesh {
   std::uint32_t triangle_count() const { return static_cast<std::uint32_t>(triangles_.size()); }
   bool is_alive_vertex(std::uint32_t v) const { return head_[v] != no_index; }
   bool is_alive(std::uint32_t t) const { return surface_of_[t] != no_index; }
+  /// Alive, and not of the surroundings of a block.
+  bool is_changeable(std::uint32_t t) const { return is_alive(t) && !is_held(t); }
   const Vec3& point(std::uint32_t v) const { return points_[v]; }
   const Triangle& triangle(std::uint32_t t) const { return triangles_[t]; }
   std::uint32_t surface_of(std::uint32_t t) const { return surface_of_[t]; }
@@ -114,8 +127,28 @@ class GuardedMesh {
   /// Replaces an edge inside a surface by the other diagonal of its two triangles.
   Verdict flip_edge(std::uint32_t a, std::uint32_t b, const ShapeDemand& demand);
 
+  /// Calls work(part) for the whole mesh, or, where that is large, at the same time for parts of it, each a mesh of
+  /// its own: the triangles wholly inside a block of space, and as surroundings that cannot be changed those across its
+  /// sides. What parts come to is put together, perhaps renumbered; it depends on the mesh alone, not on the schedule.
+  /// Triangles at the sides of blocks count as changed: whoever works on in other blocks finds them to be looked at.
+  /// What work returned, by part. The default of what it returns has to exist.
+  template <class Work>
+  auto in_blocks(const BlockOptions& options, Work&& work) {
+    using Done = std::invoke_result_t<Work&, GuardedMesh&>;
+    if (triangle_count() - free_.size() <= 3 * options.most_triangles) return std::vector<Done>{work(*this)};
+    const BlockCut cut = cut_into_blocks(options);
+    std::vector<std::optional<GuardedMesh>> parts(cut.blocks.size());
+    std::vector<Done> done(cut.blocks.size());
+    parallel_ranges(parts.size(), 1, [&](std::size_t b, std::size_t) {
+      parts[b].emplace(GuardedMesh(*this, cut, b));
+      done[b] = work(*parts[b]);
+    });
+    take_back(cut, parts);
+    return done;
+  }
+
   /// Numbers vertices and triangles anew, without the dead, along a curve that fills space: sweeps over them then find
-  /// most of what they read in the caches.
+  /// most of what they read in the caches. Does nothing to a part of a mesh: its parts are small.
   void renumber();
 
   /// Whether GuardOptions::is_cancelled was true once.
@@ -136,8 +169,8 @@ class GuardedMesh {
   };
   struct Removed {
     std::uint32_t triangle = 0;
-    double quality = 0, shape = 0;
-    Vec3 normal;  ///< twice the area long
+    double quality = 0, shape = 0;  ///< shape: where the demand needs it
+    Vec3 normal;                    ///< twice the area long
   };
   struct SurfaceTurn {
     std::uint32_t surface = 0;
@@ -147,6 +180,41 @@ class GuardedMesh {
   struct SampleMove {
     std::uint32_t sample = 0, added = 0;
   };
+  /// What no step changes.
+  struct Frame {
+    std::vector<std::uint32_t> first_corner_line, corner_lines;
+    std::vector<int> flat_turn;  ///< per flat surface
+    /// Per line of three and more surfaces: 2 surface + (1 if its triangles run along the line), around it.
+    std::vector<std::vector<std::uint32_t>> radial;
+    std::vector<FloatBox> pieces;         ///< boxes of the parts that hang together; empty if all does
+    std::vector<std::uint32_t> piece_of;  ///< per surface
+  };
+  struct BlockCut {
+    std::vector<SpaceBlock> blocks;                    ///< of triangles
+    std::vector<std::vector<std::uint32_t>> vertices;  ///< per block: whose triangles are all inside it, ascending
+    std::vector<std::uint32_t> block_of, number;       ///< per vertex: its block, or no_index, and place in `vertices`
+  };
+  /// Of a part of a mesh: where its vertices, triangles and samples come from, by their numbers here; new ones follow.
+  struct Origin {
+    FloatBox box;
+    std::vector<std::uint32_t> vertices, triangles, samples;
+    std::uint32_t own_vertices = 0, own_triangles = 0;  ///< those after them are the surroundings
+    /// A vertex here by its number there, where the new ones begin at `first_new`.
+    std::uint32_t number_outside(std::uint32_t v, std::uint32_t first_new) const {
+      if (v < vertices.size()) return vertices[v];
+      return v == no_index ? no_index : first_new + v - static_cast<std::uint32_t>(vertices.size());
+    }
+  };
+
+  GuardedMesh(const GuardedMesh& whole, const BlockCut& cut, std::size_t block);
+  BlockCut cut_into_blocks(const BlockOptions& options) const;
+  void take_back(const BlockCut& cut, const std::vector<std::optional<GuardedMesh>>& parts);
+  /// Gives a part's own triangles and vertices back to the mesh it is of, whose first new ones they become.
+  void give_back(GuardedMesh& whole, std::uint32_t first_vertex, std::uint32_t first_triangle) const;
+  bool is_held(std::uint32_t t) const {
+    return origin_ && t >= origin_->own_triangles && t < origin_->triangles.size();
+  }
+  bool leaves_block();
 
   void find_kinds();
   void place_samples();
@@ -157,7 +225,7 @@ class GuardedMesh {
     return verdict;
   }
   void begin_change();
-  void remove(std::uint32_t t);  // measures it: call before any point moves
+  void remove(std::uint32_t t, const ShapeDemand& demand);  // measures it: call before any point moves
   void add(const Triangle& corners, std::uint32_t parent);
   bool is_removed(std::uint32_t t) const { return removed_mark_[t] == change_; }
   std::uint32_t new_mark();
@@ -181,9 +249,11 @@ class GuardedMesh {
   Verdict try_move(std::uint32_t v, const Vec3& to, const ShapeDemand& demand, Accepted&& accepted);
   void link_triangle(std::uint32_t t);
   void unlink_triangle(std::uint32_t t);
+  void link_all();
+  void fill_grid();
   FloatBox box_of(const Triangle& t) const;
 
-  void link_line(std::uint32_t line, std::uint32_t a, std::uint32_t b);
+  void link_line(std::uint32_t a, std::uint32_t b);
   bool is_in_line_order(std::uint32_t line, std::uint32_t a, std::uint32_t b) const;
   /// Arc positions of an edge's ends, in line order, ascending.
   std::array<double, 2> arcs_of_edge(std::uint32_t line, std::uint32_t a, std::uint32_t b) const;
@@ -194,6 +264,8 @@ class GuardedMesh {
   const InputSurfaces& inputs_;
   GuardOptions options_;
   double cos_turn_ = 0;
+  std::shared_ptr<Frame> frame_ = std::make_shared<Frame>();
+  std::optional<Origin> origin_;  ///< of a part of another mesh
 
   std::vector<Vec3> points_;
   std::vector<VertexKind> kind_;
@@ -210,17 +282,10 @@ class GuardedMesh {
   std::uint32_t steps_ = 0;
   std::vector<std::uint32_t> free_;
   TriangleGrid grid_;
+  bool is_grid_filled_ = false;  ///< from when the first step needs it
 
   std::vector<std::uint32_t> line_edges_;
-  std::vector<std::array<std::uint32_t, 2>> line_ends_;  ///< vertices next to the corners at the ends
-  std::vector<std::uint32_t> first_corner_line_, corner_lines_;
-  std::vector<int> flat_turn_;  ///< per flat surface
-  /// Per line of three and more surfaces: 2 surface + (1 if its triangles run along the line), around it.
-  std::vector<std::vector<std::uint32_t>> radial_;
-
-  std::vector<FloatBox> pieces_;         ///< boxes of the parts that hang together; empty if all does
-  std::vector<std::uint32_t> piece_of_;  ///< per surface
-  std::vector<Vec3> samples_;            ///< points of the input that have to stay near
+  std::vector<Vec3> samples_;  ///< points of the input that have to stay near
   std::vector<std::uint32_t> next_sample_;
 
   // The change at hand.

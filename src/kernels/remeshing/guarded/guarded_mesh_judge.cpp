@@ -60,13 +60,26 @@ bool is_plainly_apart(const std::vector<Vec3>& points, const Triangle& first, co
     const double opening = -dot(cross(along, a), cross(along, b)), square = dot(along, along);
     return opening > 0 && opening * opening > margin * margin * square * square * dot(a, a) * dot(b, b);
   }
-  return false;
+  // A plane between them, across the way from one's middle to the other's.
+  const Vec3& from = points[first[0]];
+  std::array<Vec3, 3> a, b;
+  for (std::size_t k = 0; k < 3; ++k) {
+    a[k] = points[first[k]] - from;
+    b[k] = points[second[k]] - from;
+  }
+  const Vec3 way = (b[0] + b[1] + b[2]) - (a[0] + a[1] + a[2]);
+  const double last = std::max({0.0, dot(way, a[1]), dot(way, a[2])});
+  const double begin = std::min({dot(way, b[0]), dot(way, b[1]), dot(way, b[2])});
+  const double most = std::max({dot(a[1], a[1]), dot(a[2], a[2]), dot(b[0], b[0]), dot(b[1], b[1]), dot(b[2], b[2])});
+  const double gap = begin - last;
+  return gap > 0 && gap * gap > margin * margin * dot(way, way) * most;
 }
 
 }  // namespace
 
 Verdict GuardedMesh::judge(const ShapeDemand& demand, bool is_inside_surface) {
   if (!keeps_shape(demand)) return Verdict::shape;
+  if (origin_ && leaves_block()) return Verdict::fixed;
   if (!keeps_direction()) return Verdict::turned;
   if (has_new_ear()) return Verdict::topology;
   if (!keeps_samples()) return Verdict::strayed;
@@ -127,7 +140,7 @@ bool GuardedMesh::keeps_direction() {
     const std::uint32_t surface = surface_of_[removed_[added.parent].triangle];
     const Vec3 &a = points_[added.corners[0]], &b = points_[added.corners[1]], &c = points_[added.corners[2]];
     if (const int axis = inputs_.flat_axis(surface); axis >= 0) {
-      if (orientation_2d(a, b, c, axis) != flat_turn_[surface]) return false;
+      if (orientation_2d(a, b, c, axis) != frame_->flat_turn[surface]) return false;
       continue;
     }
     const SurfaceTurn& turn = turn_of(surface);
@@ -181,20 +194,21 @@ bool GuardedMesh::keeps_samples() {
 }
 
 bool GuardedMesh::jumps_over_piece(FloatBox around) const {
-  if (pieces_.empty()) return false;
+  if (frame_->pieces.empty()) return false;
   for (const Removed& r : removed_) widen(around, grid_.box(r.triangle));
-  const std::uint32_t own = piece_of_[surface_of_[removed_[0].triangle]];
-  for (std::uint32_t p = 0; p < pieces_.size(); ++p) {
-    if (p == own || !overlap(pieces_[p], around)) continue;
+  const std::uint32_t own = frame_->piece_of[surface_of_[removed_[0].triangle]];
+  for (std::uint32_t p = 0; p < frame_->pieces.size(); ++p) {
+    if (p == own || !overlap(frame_->pieces[p], around)) continue;
     bool fits = true;
     for (int axis = 0; axis < 3; ++axis)
-      fits &= pieces_[p].high[axis] - pieces_[p].low[axis] <= around.high[axis] - around.low[axis];
+      fits &= frame_->pieces[p].high[axis] - frame_->pieces[p].low[axis] <= around.high[axis] - around.low[axis];
     if (fits) return true;
   }
   return false;
 }
 
 bool GuardedMesh::keeps_apart() {
+  if (!is_grid_filled_) fill_grid();
   const auto are_apart = [&](const Triangle& a, const Triangle& b) {
     return is_plainly_apart(points_, a, b) || meeting_of(points_, a, b) == PairMeeting::proper;
   };
@@ -202,9 +216,7 @@ bool GuardedMesh::keeps_apart() {
   for (const Added& a : added_) widen(around, a.box);
   for (std::size_t i = 0; i < added_.size(); ++i)
     for (std::size_t j = i + 1; j < added_.size(); ++j)
-      if (overlap(added_[i].box, added_[j].box) &&
-          !are_apart(added_[i].corners, added_[j].corners))
-        return false;
+      if (overlap(added_[i].box, added_[j].box) && !are_apart(added_[i].corners, added_[j].corners)) return false;
   if (jumps_over_piece(around)) return false;
   const std::uint32_t mark = new_mark();
   bool is_apart = true;
@@ -247,7 +259,7 @@ bool GuardedMesh::has_radial_order(std::uint32_t line, std::uint32_t a, std::uin
   std::vector<std::uint32_t> words(leaf_words_.size());
   for (std::size_t k = 0; k < words.size(); ++k) words[k] = leaf_words_[order.half_edges[k] / 3];
   leaf_words_ = words;
-  const std::vector<std::uint32_t>& wanted = radial_[line];
+  const std::vector<std::uint32_t>& wanted = frame_->radial[line];
   if (words.size() != wanted.size()) return false;
   for (std::size_t shift = 0; shift < words.size(); ++shift) {
     bool is_same = true;
@@ -261,7 +273,7 @@ bool GuardedMesh::keeps_radial_order() {
   for (const Added& added : added_)
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = added.corners[k], b = added.corners[(k + 1) % 3], line = line_of_edge(a, b);
-      if (line == no_index || radial_[line].empty()) continue;
+      if (line == no_index || frame_->radial[line].empty()) continue;
       const bool was_seen = std::any_of(static_cast<const Added*>(added_.data()), &added, [&](const Added& other) {
         return has(other.corners, a) && has(other.corners, b);
       });

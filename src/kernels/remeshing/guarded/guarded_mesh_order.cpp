@@ -45,6 +45,7 @@ void rearrange(std::vector<T>& values, const std::vector<Placed>& order) {
 }  // namespace
 
 void GuardedMesh::renumber() {
+  if (origin_) return;
   Box3 box;
   for (std::uint32_t v = 0; v < vertex_count(); ++v)
     if (is_alive_vertex(v)) box.take(points_[v]);
@@ -75,8 +76,6 @@ void GuardedMesh::renumber() {
   rearrange(place_, vertices);
   for (std::vector<std::uint32_t>* links : {&before_, &after_})
     for (std::uint32_t& v : *links) v = renumbered(v);
-  for (auto& ends : line_ends_)
-    for (std::uint32_t& v : ends) v = renumbered(v);
   rearrange(triangles_, triangles);
   rearrange(surface_of_, triangles);
   rearrange(source_, triangles);
@@ -102,10 +101,8 @@ void GuardedMesh::renumber() {
     if (first != no_index && first > 0) next_sample_[first - 1] = no_index;
   if (!next_sample_.empty()) next_sample_.back() = no_index;
 
-  grid_.clear();
-  head_.assign(points_.size(), no_index);
-  next_.assign(3 * triangles_.size(), no_index);
-  for (std::uint32_t t = 0; t < triangle_count(); ++t) link_triangle(t);
+  is_grid_filled_ = false;
+  link_all();
 }
 
 }  // namespace strataflow

@@ -65,10 +65,17 @@ InputSurfaces::Place InputSurfaces::nearest(const Vec3& p, std::uint32_t start) 
     const Triangle& c = model_.triangles[t];
     return square_distance(p, model_.points[c[0]], model_.points[c[1]], model_.points[c[2]]);
   };
+  const auto is_above = [&](std::uint32_t t) {  // no place beside it on the surface is nearer
+    const Triangle& c = model_.triangles[t];
+    const Vec3 ab = model_.points[c[1]] - model_.points[c[0]], ac = model_.points[c[2]] - model_.points[c[0]],
+               n = cross(ab, ac), ap = p - model_.points[c[0]];
+    const double whole = dot(n, n), u = dot(cross(ap, ac), n), v = dot(cross(ab, ap), n);
+    return u > 0 && v > 0 && u + v < whole;
+  };
   const std::uint32_t surface = model_.triangle_surface[start];
   std::uint32_t best = start;
   double best_square = square(start);
-  for (std::uint32_t from = no_index; from != best;) {
+  for (std::uint32_t from = no_index; from != best && !is_above(best);) {
     from = best;
     for (const std::uint32_t v : model_.triangles[from])
       for (const std::uint32_t t : around(v)) {

@@ -13,9 +13,9 @@ namespace strataflow {
 namespace {
 
 constexpr double sine_20_deg = 0.3420201433256687, sine_30_deg = 0.5;
-constexpr double longest_share = 4.0 / 3, shortest_share = 4.0 / 5;
-constexpr double least_gain = 1e-3;  ///< of the loss, for a vertex to move
-constexpr double poor_shape = 0.8;   ///< triangles below it are collapsed or split to raise the mean
+constexpr double longest_share = 4.0 / 3, shortest_share = 3.0 / 4;
+constexpr double poor_shape = 0.8;  ///< triangles below it are collapsed or split to raise the mean
+constexpr double needle = 3e-4;     ///< quality below which no step takes a triangle: 0.017°
 constexpr int most_sweeps = 16;
 
 struct MeasuredEdge {
@@ -24,10 +24,10 @@ struct MeasuredEdge {
 };
 
 template <class Wanted>
-std::vector<MeasuredEdge> edges_where(const GuardedMesh& mesh, Wanted&& wanted) {
+std::vector<MeasuredEdge> edges_where(const GuardedMesh& mesh, std::uint32_t since, Wanted&& wanted) {
   std::vector<MeasuredEdge> edges;
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-    if (!mesh.is_alive(t)) continue;
+    if (!mesh.is_changeable(t) || mesh.changed_at(t) < since) continue;
     const Triangle& corners = mesh.triangle(t);
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t a = std::min(corners[k], corners[(k + 1) % 3]),
@@ -64,49 +64,74 @@ Vec3 star_centroid(const GuardedMesh& mesh, std::uint32_t v) {
   return whole > 0 ? p + (1 / (3 * whole)) * sum : p;
 }
 
-/// What the triangles around v lack of the best shape, altogether, if v were at p.
-double shape_loss(const GuardedMesh& mesh, std::uint32_t v, const Vec3& p) {
-  double sum = 0;
+/// A triangle around a vertex without it: the edge opposite of it.
+struct Opposite {
+  Vec3 a, b;
+  double length = 0;
+};
+
+void find_opposite(const GuardedMesh& mesh, std::uint32_t v, std::vector<Opposite>& star) {
+  star.clear();
   mesh.visit_star(v, [&](std::uint32_t t) {
     const Triangle& c = mesh.triangle(t);
     const std::size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
-    sum += 1 - shape_of(p, mesh.point(c[(k + 1) % 3]), mesh.point(c[(k + 2) % 3]));
+    const Vec3 &a = mesh.point(c[(k + 1) % 3]), &b = mesh.point(c[(k + 2) % 3]);
+    star.push_back({a, b, length(b - a)});
   });
+}
+
+/// shape_of as share · twice the area / (longest edge · all edges).
+constexpr double shape_share = 2 * std::numbers::sqrt3;
+
+/// What the triangles around a vertex lack of the best shape, altogether, if it were at p.
+double shape_loss(const std::vector<Opposite>& star, const Vec3& p) {
+  double sum = 0;
+  for (const Opposite& o : star) {
+    const Vec3 pa = o.a - p, pb = o.b - p;
+    const double x = length(pa), z = length(pb), longest = std::max({x, o.length, z});
+    sum += longest > 0 ? 1 - shape_share * length(cross(pa, pb)) / (longest * (x + o.length + z)) : 1;
+  }
+  return sum;
+}
+
+/// The way on which shape_loss grows fastest, as fast as it does.
+Vec3 shape_loss_slope(const std::vector<Opposite>& star, const Vec3& p) {
+  Vec3 sum;
+  for (const Opposite& o : star) {
+    const Vec3 pa = o.a - p, pb = o.b - p, n = cross(pa, pb);
+    const double x = length(pa), z = length(pb), area = length(n), longest = std::max({x, o.length, z}),
+                 edges = x + o.length + z;
+    if (!(area > 0)) continue;  // any way makes it better
+    const Vec3 by_x = (-1 / x) * pa, by_z = (-1 / z) * pb;
+    Vec3 relative = (1 / (area * area)) * cross(o.a - o.b, n) - (1 / edges) * (by_x + by_z);
+    if (longest != o.length) relative = relative - (1 / longest) * (longest == x ? by_x : by_z);
+    sum = sum - (shape_share * area / (longest * edges)) * relative;
+  }
   return sum;
 }
 
 /// Where a surface vertex should go, along the way on which the loss falls fastest; itself where no step helps.
-Vec3 shapelier_place(const GuardedMesh& mesh, std::uint32_t v) {
-  const Vec3 p = mesh.point(v);
-  Vec3 normal, any;
+Vec3 shapelier_place(const std::vector<Opposite>& star, const Vec3& p, double least_gain) {
+  Vec3 normal;
   double edge_m = 0;
-  int count = 0;
-  mesh.visit_star(v, [&](std::uint32_t t) {
-    const Triangle& c = mesh.triangle(t);
-    any = mesh.point(c[1]) - mesh.point(c[0]);
-    const Vec3 n = cross(any, mesh.point(c[2]) - mesh.point(c[0]));
+  for (const Opposite& o : star) {
+    const Vec3 n = cross(o.a - p, o.b - p);
     normal = normal + n;
     edge_m += std::sqrt(length(n));
-    ++count;
-  });
-  const double whole = length(normal);
-  if (!(whole > 0)) return p;
-  normal = (1 / whole) * normal;
-  Vec3 x = any - dot(any, normal) * normal;
-  if (!(length(x) > 0)) return p;
-  x = (1 / length(x)) * x;
-  const Vec3 y = cross(normal, x);
-  edge_m /= count;
-  const double h = 1e-3 * edge_m;
-  const double by_x = shape_loss(mesh, v, p + h * x) - shape_loss(mesh, v, p - h * x);
-  const double by_y = shape_loss(mesh, v, p + h * y) - shape_loss(mesh, v, p - h * y), slope = std::hypot(by_x, by_y);
+  }
+  const double square = dot(normal, normal);
+  if (!(square > 0)) return p;
+  edge_m /= static_cast<double>(star.size());
+  Vec3 down = -1.0 * shape_loss_slope(star, p);
+  down = down - (dot(down, normal) / square) * normal;
+  const double slope = length(down);
   if (!(slope > 0)) return p;
-  const Vec3 down = (-by_x / slope) * x + (-by_y / slope) * y;
-  double least = shape_loss(mesh, v, p) * (1 - least_gain);
+  down = (edge_m / slope) * down;
+  double least = shape_loss(star, p) * (1 - least_gain);
   Vec3 best = p;
   for (double step = 0.2; step > 0.01; step *= 0.5) {
-    const Vec3 q = p + (step * edge_m) * down;
-    if (const double loss = shape_loss(mesh, v, q); loss < least) {
+    const Vec3 q = p + step * down;
+    if (const double loss = shape_loss(star, q); loss < least) {
       least = loss;
       best = q;
     } else if (best != p) {
@@ -117,14 +142,14 @@ Vec3 shapelier_place(const GuardedMesh& mesh, std::uint32_t v) {
 }
 
 /// The same of a line vertex: an arc position.
-double shapelier_arc(const GuardedMesh& mesh, std::uint32_t v) {
+double shapelier_arc(const GuardedMesh& mesh, std::uint32_t v, const std::vector<Opposite>& star, double least_gain) {
   const auto [from, here, to] = mesh.arcs_around(v);
   const Vec3 p = mesh.point(v);
-  double least = shape_loss(mesh, v, p) * (1 - least_gain), best = here;
+  double least = shape_loss(star, p) * (1 - least_gain), best = here;
   for (const int side : {0, 1})
     for (const double share : {0.2, 0.1, 0.05, 0.025}) {
       const Vec3 end = mesh.point(mesh.line_neighbours(v)[static_cast<std::size_t>(side)]);
-      const double loss = shape_loss(mesh, v, p + share * (end - p));
+      const double loss = shape_loss(star, p + share * (end - p));
       if (!(loss < least)) continue;
       least = loss;
       best = here + share * ((side == 0 ? from : to) - here);
@@ -150,7 +175,7 @@ std::uint64_t sweep_edges(GuardedMesh& mesh, std::uint32_t since, int sweeps, St
     std::uint64_t now = 0;
     const std::uint32_t start = mesh.step_count();
     for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
-      if (!mesh.is_alive(t) || mesh.changed_at(t) < since) continue;
+      if (!mesh.is_changeable(t) || mesh.changed_at(t) < since) continue;
       for (std::size_t k = 0; k < 3; ++k)
         if (step(t, k, since) == Verdict::done) {
           ++now;
@@ -166,31 +191,34 @@ std::uint64_t sweep_edges(GuardedMesh& mesh, std::uint32_t since, int sweeps, St
 
 }  // namespace
 
-std::uint64_t split_long_edges(GuardedMesh& mesh) {
+std::uint64_t split_long_edges(GuardedMesh& mesh, std::uint32_t since) {
   std::uint64_t done = 0;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    std::vector<MeasuredEdge> edges = edges_where(mesh, [](double share) { return share > longest_share; });
+    std::vector<MeasuredEdge> edges = edges_where(mesh, since, [](double share) { return share > longest_share; });
     sort_unique(edges, std::greater<>());
     std::uint64_t now = 0;
-    for (const MeasuredEdge& edge : edges) now += mesh.split_edge(edge.a, edge.b, {}) == Verdict::done;
+    for (const MeasuredEdge& edge : edges) now += mesh.split_edge(edge.a, edge.b, {.floor = needle}) == Verdict::done;
     done += now;
     if (now == 0) break;
   }
   return done;
 }
 
-std::uint64_t collapse_short_edges(GuardedMesh& mesh) {
+std::uint64_t collapse_short_edges(GuardedMesh& mesh, std::uint32_t since) {
   std::uint64_t done = 0;
   const ShapeDemand demand{.floor = sine_20_deg, .longest = longest_share};
-  for (std::uint32_t sweep = 0, since = 0; sweep < most_sweeps; ++sweep) {
-    std::vector<MeasuredEdge> edges = edges_where(mesh, [](double share) { return share < shortest_share; });
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    std::vector<MeasuredEdge> edges = edges_where(mesh, 0, [](double share) { return share < shortest_share; });
+    // What was refused is refused again as long as nothing around it changes.
+    if (since > 0)
+      std::erase_if(edges, [&](const MeasuredEdge& edge) {
+        return mesh.star_changed_at(edge.a) < since && mesh.star_changed_at(edge.b) < since;
+      });
     sort_unique(edges, std::less<>());
     std::uint64_t now = 0;
     const std::uint32_t start = mesh.step_count() + 1;
     for (const MeasuredEdge& edge : edges) {
       if (!mesh.is_alive_vertex(edge.a) || !mesh.is_alive_vertex(edge.b)) continue;
-      // What was refused is refused again as long as nothing around it changes.
-      if (mesh.star_changed_at(edge.a) < since && mesh.star_changed_at(edge.b) < since) continue;
       now += mesh.collapse_edge(edge.b, edge.a, demand) == Verdict::done ||
              mesh.collapse_edge(edge.a, edge.b, demand) == Verdict::done;
     }
@@ -249,15 +277,17 @@ std::uint64_t even_valences(GuardedMesh& mesh, std::uint32_t since) {
   });
 }
 
-std::uint64_t even_out(GuardedMesh& mesh, std::uint32_t since) {
+std::uint64_t even_out(GuardedMesh& mesh, std::uint32_t since, double least_gain) {
   std::uint64_t done = 0;
   const ShapeDemand demand{.floor = sine_30_deg};
+  std::vector<Opposite> star;
   for (std::uint32_t v = 0; v < mesh.vertex_count(); ++v) {
     if (!mesh.is_alive_vertex(v) || mesh.is_fixed(v) || mesh.star_changed_at(v) < since) continue;
+    find_opposite(mesh, v, star);
     if (mesh.kind(v) == VertexKind::surface) {
-      if (const Vec3 place = shapelier_place(mesh, v); place != mesh.point(v))
+      if (const Vec3 place = shapelier_place(star, mesh.point(v), least_gain); place != mesh.point(v))
         done += mesh.move_vertex(v, place, demand) == Verdict::done;
-    } else if (const double arc = shapelier_arc(mesh, v); arc != mesh.arcs_around(v)[1]) {
+    } else if (const double arc = shapelier_arc(mesh, v, star, least_gain); arc != mesh.arcs_around(v)[1]) {
       done += mesh.slide_vertex(v, arc, demand) == Verdict::done;
     }
   }
@@ -307,12 +337,12 @@ std::uint64_t mend_bad_triangles(GuardedMesh& mesh, std::uint32_t since) {
     return false;
   };
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t)
-    if (mesh.is_alive(t))
+    if (mesh.is_changeable(t))
       if (const double q = mesh.quality(t); q < sine_30_deg && has_changed(t)) bad.push_back({q, t, mesh.triangle(t)});
   std::sort(bad.begin(), bad.end(), [](const Bad& x, const Bad& y) {
     return x.quality != y.quality ? x.quality < y.quality : x.triangle < y.triangle;
   });
-  const ShapeDemand better{.must_improve = true, .longest = 1.8};
+  const ShapeDemand better{.floor = needle, .must_improve = true, .longest = 1.8};
   const auto mend = [&](const Bad& b) {
     std::array<std::uint32_t, 3> by_length{0, 1, 2};  // edge k runs from corner k
     const auto edge_length = [&](std::uint32_t k) {

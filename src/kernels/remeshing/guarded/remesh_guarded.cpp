@@ -13,6 +13,10 @@ namespace strataflow {
 namespace {
 
 constexpr double shaken_share = 0.3;
+/// What a vertex has to gain to be moved, while edges still come and go and at the end.
+constexpr double coarse_gain = 5e-3, fine_gain = 1e-3;
+/// Where blocks are cut, in turns: what lies at their sides once is inside them the next time.
+constexpr std::array<double, 3> block_shares{0.5, 0.4, 0.6};
 
 /// Why triangle t has an angle below 5°.
 BadTriangleReason reason_of(const GuardedMesh& mesh, const FeatureSizes& features, std::uint32_t t) {
@@ -60,37 +64,75 @@ Result<RemeshGuardedResult> remesh_guarded(const StructuralModel& model, const R
   const FeatureSizes features(inputs, *std::max_element(size_m.begin(), size_m.end()));
 
   RemeshGuardedReport report;
+  std::size_t turn = 0;
+  // Calls work(part, counts) for the parts of the mesh, adds the counts up and returns how many parts there were.
+  const auto in_blocks = [&](auto&& work) {
+    const std::vector<RemeshGuardedReport> parts =
+        mesh.in_blocks({.share = block_shares[turn++ % block_shares.size()]}, [&](GuardedMesh& part) {
+          RemeshGuardedReport counts;
+          work(part, counts);
+          return counts;
+        });
+    for (const RemeshGuardedReport& done : parts) {
+      report.splits += done.splits;
+      report.collapses += done.collapses;
+      report.flips += done.flips;
+      report.moves += done.moves;
+      report.mended += done.mended;
+    }
+    return parts.size();
+  };
   for (std::int64_t round = 0; round < options.rounds && !mesh.is_stopped(); ++round) {
     set_graded_sizes(mesh, features, size_m, options.smallest_size_ratio, options.size_growth_ratio);
-    report.collapses += collapse_short_edges(mesh);
-    report.flips += flip_edges(mesh);
-    report.splits += split_long_edges(mesh);
-    report.collapses += collapse_short_edges(mesh);
-    mesh.renumber();
-    if (round == 0) report.moves += shake(mesh, shaken_share);
     // Regular vertices first, the best angles last.
     const bool is_last = round + 1 == options.rounds;
-    for (std::uint32_t sweep = 0, since = 0; sweep < 2; ++sweep) {
-      const std::uint32_t start = mesh.step_count() + 1;
-      report.flips += is_last ? flip_edges(mesh, since) : even_valences(mesh, since);
-      report.moves += even_out(mesh, since);
-      since = start;
+    const double least_gain = is_last ? fine_gain : coarse_gain;
+    const auto relax = [&](GuardedMesh& part, std::uint32_t since, RemeshGuardedReport& counts) {
+      counts.collapses += collapse_short_edges(part, since);
+      counts.flips += flip_edges(part, since);
+      counts.splits += split_long_edges(part, since);
+      counts.collapses += collapse_short_edges(part, since);
+      part.renumber();
+      if (round == 0 && since == 0) counts.moves += shake(part, shaken_share);
+      for (int sweep = 0; sweep < 2; ++sweep) {
+        const std::uint32_t start = part.step_count() + 1;
+        counts.flips += is_last ? flip_edges(part, since) : even_valences(part, since);
+        counts.moves += even_out(part, since, least_gain);
+        since = start;
+      }
+    };
+    const std::size_t parts =
+        in_blocks([&](GuardedMesh& part, RemeshGuardedReport& counts) { relax(part, 0, counts); });
+    // At first what lies at the sides of blocks is far behind, and would spoil what is next to it.
+    if (parts > 1 && round < 2) {
+      const std::uint32_t since = mesh.step_count();
+      in_blocks([&](GuardedMesh& part, RemeshGuardedReport& counts) { relax(part, since, counts); });
     }
   }
-  std::uint32_t since = 0;
-  for (std::int64_t round = 0; round < options.mending_rounds; ++round) {
-    const std::uint32_t start = mesh.step_count() + 1;
-    const std::uint64_t mended = mend_bad_triangles(mesh, since);
-    report.mended += mended;
-    report.flips += flip_edges(mesh, since);
-    since = start;
-    if (mended == 0) break;
+  // Once where blocks are cut here, then there, so that what lies at their sides is mended, too.
+  for (std::uint32_t cut = 0, since = 0; cut < block_shares.size(); ++cut) {
+    const std::uint32_t before = mesh.step_count() + 1;
+    const std::size_t parts = in_blocks([&](GuardedMesh& part, RemeshGuardedReport& counts) {
+      std::uint32_t recent = since;
+      for (std::int64_t round = 0; round < options.mending_rounds; ++round) {
+        const std::uint32_t start = part.step_count() + 1;
+        const std::uint64_t mended = mend_bad_triangles(part, recent);
+        counts.mended += mended;
+        counts.flips += flip_edges(part, recent);
+        recent = start;
+        if (mended == 0) break;
+      }
+    });
+    since = before;
+    if (parts == 1) break;
   }
-  since = 0;
+  std::uint32_t since = 0;
   for (std::int64_t round = 0; round < options.shape_rounds; ++round) {
     const std::uint32_t start = mesh.step_count() + 1;
-    report.moves += even_out(mesh, since);
-    report.mended += raise_mean_shape(mesh, since);
+    in_blocks([&](GuardedMesh& part, RemeshGuardedReport& counts) {
+      counts.moves += even_out(part, since, fine_gain);
+      counts.mended += raise_mean_shape(part, since);
+    });
     since = start;
   }
   if (mesh.is_stopped()) return Failure{FailureCode::cancelled, "remeshing was stopped", "run it again"};

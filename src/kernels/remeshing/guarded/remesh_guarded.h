@@ -16,12 +16,12 @@ struct RemeshGuardedOptions {
   std::vector<double> surface_edge_length_m = {};  ///< per surface, > 0; empty: target_edge_length_m everywhere
   double distance_ratio = 0.002;                   ///< > 0: how far the input may lie from the mesh, of its diagonal
   double turn_angle_deg = 50.0;                    ///< (0, 90): how far a triangle may turn away from those it replaces
-  double smallest_size_ratio = 0.4;  ///< (0, 1]: how far edges may shrink along strips between lines; 1: not
-  double size_growth_ratio = 0.5;    ///< > 0: how fast they grow from there, per metre
-  std::int64_t rounds = 6;           ///< ≥ 0: of splitting, collapsing, flipping and evening out
-  std::int64_t mending_rounds = 12;  ///< ≥ 0: at what is still bad, at most
-  std::int64_t shape_rounds = 8;     ///< ≥ 0: of raising the mean shape
-  std::function<bool()> is_cancelled = {};  ///< asked now and then
+  double smallest_size_ratio = 0.4;         ///< (0, 1]: how far edges may shrink along strips between lines; 1: not
+  double size_growth_ratio = 0.5;           ///< > 0: how fast they grow from there, per metre
+  std::int64_t rounds = 7;                  ///< ≥ 0: of splitting, collapsing, flipping and evening out
+  std::int64_t mending_rounds = 12;         ///< ≥ 0: at what is still bad, at most
+  std::int64_t shape_rounds = 8;            ///< ≥ 0: of raising the mean shape
+  std::function<bool()> is_cancelled = {};  ///< asked now and then, by several threads
 };
 
 /// Why a triangle kept an angle below 5°.

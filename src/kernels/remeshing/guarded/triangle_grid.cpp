@@ -60,15 +60,6 @@ void TriangleGrid::erase(std::uint32_t triangle) {
   });
 }
 
-void TriangleGrid::clear() {
-  for (Level& level : levels_) {
-    std::fill(level.heads.begin(), level.heads.end(), no_index);
-    level.triangles = 0;
-  }
-  nodes_.clear();
-  free_node_ = no_index;
-}
-
 void TriangleGrid::move(std::uint32_t triangle, const FloatBox& box) {
   const std::size_t from = level_of(boxes_[triangle]);
   if (from == level_of(box) && levels_[from].cells_of(box) == levels_[from].cells_of(boxes_[triangle])) {

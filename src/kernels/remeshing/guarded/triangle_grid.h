@@ -22,8 +22,6 @@ class TriangleGrid {
   void insert(std::uint32_t triangle, const FloatBox& box);
   /// `triangle` is in the grid.
   void erase(std::uint32_t triangle);
-  /// Takes out all.
-  void clear();
   /// The same as erase and insert, often cheaper.
   void move(std::uint32_t triangle, const FloatBox& box);
   const FloatBox& box(std::uint32_t triangle) const { return boxes_[triangle]; }

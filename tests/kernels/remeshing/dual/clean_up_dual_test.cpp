@@ -127,6 +127,29 @@ TEST(CleanUpDual, a_flat_triangle_at_a_corner_is_flipped_and_the_corner_stays) {
   }
 }
 
+TEST(CleanUpDual, ends_where_each_of_two_flips_takes_the_other_back) {
+  // A trapezoid between four corners of the model: at both ends of its short side the border hardly bends, and either
+  // diagonal leaves a triangle with one of them in its middle.
+  DualMesh mesh;
+  for (const Vec3& p : {Vec3{0, 0, 0}, Vec3{10, 0, 0}, Vec3{7, 0.5, 0}, Vec3{3, 0.5, 0}})
+    mesh.points.push_back({p, static_cast<std::uint32_t>(mesh.points.size()), PointKind::corner, 0});
+  mesh.triangles = {{0, 1, 3}, {1, 2, 3}};
+  mesh.triangle_surface = {0, 0};
+  mesh.corner_point = {0, 1, 2, 3};
+  mesh.line_points = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  const CleanUpReport report = clean_up_dual(StructuralModel{}, mesh);
+  EXPECT_EQ(report.done.size(), 8u);
+  for (const CleanUp& done : report.done) EXPECT_EQ(done.kind, CleanUpKind::flip);
+  EXPECT_EQ(report.refused.size(), 1u);
+  double area = 0;
+  for (const auto& [x, y, z] : mesh.triangles)
+    area +=
+        0.5 *
+        cross(mesh.points[y].position - mesh.points[x].position, mesh.points[z].position - mesh.points[x].position).z;
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+  EXPECT_DOUBLE_EQ(area, 3.5);
+}
+
 TEST(CleanUpDual, a_second_time_changes_nothing) {
   Dual dual = tiny_on_contact();
   clean_up_dual(dual.model, dual.mesh);

@@ -1,8 +1,11 @@
 #include "kernels/remeshing/guarded/remesh_guarded.h"
 
+#include <oneapi/tbb/global_control.h>
+
 #include <cstdlib>
 #include <filesystem>
 
+#include "graph/parallel/schedule.h"
 #include "io/input/local_origin.h"
 #include "io/read_input.h"
 #include "kernels/quality/analyze_triangles.h"
@@ -67,12 +70,26 @@ TEST(RemeshGuarded, keeps_a_dying_fault_with_its_free_border) {
   }
 }
 
-TEST(RemeshGuarded, gives_the_same_mesh_every_time) {
-  const StructuralModel model = built(support::dying_fault());
-  const auto first = remesh_guarded(model, {.target_edge_length_m = 0.7}),
-             second = remesh_guarded(model, {.target_edge_length_m = 0.7});
-  EXPECT_EQ(first->soup.points, second->soup.points);
-  EXPECT_EQ(first->soup.triangles, second->soup.triangles);
+TEST(RemeshGuarded, gives_the_same_mesh_on_every_schedule) {
+  const StructuralModel model = built(support::layered_box(45));  // large enough to be cut into blocks
+  const auto remeshed = [&] { return remesh_guarded(model, {.target_edge_length_m = 0.35, .rounds = 2})->soup; };
+  TriangleSoup expected;
+  {
+    const ScheduleScope serial(ScheduleKind::serial);
+    expected = remeshed();
+  }
+  support::expect_same_structure(model, built(expected));
+  const auto expect_same = [&] {
+    const TriangleSoup soup = remeshed();
+    EXPECT_EQ(soup.points, expected.points);
+    EXPECT_EQ(soup.triangles, expected.triangles);
+  };
+  for (const std::size_t threads : {1, 2, 3, 8}) {
+    const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
+    expect_same();
+  }
+  const ScheduleScope shuffled(ScheduleKind::shuffled, 7);
+  expect_same();
 }
 
 TEST(RemeshGuarded, keeps_the_names_of_regions) {

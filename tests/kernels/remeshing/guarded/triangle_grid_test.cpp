@@ -37,16 +37,6 @@ TEST(TriangleGrid, follows_a_box_that_moves_to_other_cells_or_grows) {
   EXPECT_EQ(found(grid, cube(33, 0.5f)), (std::set<std::uint32_t>{3}));
 }
 
-TEST(TriangleGrid, is_empty_once_cleared) {
-  TriangleGrid grid({{0, 0, 0}, {100, 100, 100}}, 1, 1u << 20);
-  grid.insert(0, cube(10, 0.5f));
-  grid.insert(1, cube(0, 90));
-  grid.clear();
-  EXPECT_TRUE(found(grid, cube(0, 99)).empty());
-  grid.insert(1, cube(20, 1));
-  EXPECT_EQ(found(grid, cube(0, 99)), (std::set<std::uint32_t>{1}));
-}
-
 TEST(TriangleGrid, finds_what_lies_outside_its_box) {
   TriangleGrid grid({{0, 0, 0}, {10, 10, 10}}, 1, 1u << 10);
   grid.insert(0, cube(-50, 1));

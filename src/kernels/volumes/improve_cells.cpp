@@ -1,4 +1,4 @@
-#include "kernels/hybrid/improve_cells.h"
+#include "kernels/volumes/improve_cells.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,16 +7,13 @@
 #include <span>
 
 #include "base/id.h"
-#include "kernels/quality/measure_cell.h"
 
 namespace strataflow {
 
 namespace {
 
 constexpr int rounds = 6;
-constexpr double good_enough = 0.25;    ///< scaled Jacobian above which a tetrahedron is left alone
-constexpr double worth_a_point = 0.12;  ///< below which a point is added for it
-constexpr double least_kept = 1e-6;     ///< far above rounding: what is made is certainly positive
+constexpr double least_kept = 1e-6;  ///< far above rounding: what is made is certainly positive
 constexpr std::size_t longest_ring = 8;
 
 double scaled_jacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
@@ -26,10 +23,27 @@ double scaled_jacobian(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& 
   return most > 0 ? std::sqrt(2.0) * dot(cross(b - a, c - a), d - a) / most : 0;
 }
 
+/// The sine of the dihedral angle at an edge: 3/2 volume times edge over the areas of the two faces beside it.
+double smallest_sine(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const double six_volumes = dot(cross(b - a, c - a), d - a);
+  const double abc = length(cross(b - a, c - a)), abd = length(cross(b - a, d - a));
+  const double acd = length(cross(c - a, d - a)), bcd = length(cross(c - b, d - b));
+  const double least =
+      std::min({length(b - a) / (abc * abd), length(c - a) / (abc * acd), length(d - a) / (abd * acd),
+                length(c - b) / (abc * bcd), length(d - b) / (abd * bcd), length(d - c) / (acd * bcd)});
+  return abc > 0 && abd > 0 && acd > 0 && bcd > 0 ? six_volumes * least : 0;
+}
+
 class Improver {
  public:
   explicit Improver(ImprovableCells& cells)
-      : points_(cells.points), is_free_(cells.is_free), tets_(cells.tets), kept_(cells.kept) {
+      : points_(cells.points),
+        is_free_(cells.is_free),
+        tets_(cells.tets),
+        measure_(cells.measure),
+        good_enough_(cells.good_enough),
+        worth_a_point_(cells.worth_a_point),
+        worst_kept_at_(cells.worst_kept_at) {
     facets_ = cells.facets;
     for (Triangle& facet : facets_) {
       std::sort(facet.begin(), facet.end());
@@ -38,25 +52,22 @@ class Improver {
     std::sort(facets_.begin(), facets_.end());
     std::sort(facet_edges_.begin(), facet_edges_.end());
     tets_of_.resize(points_.size());
-    kept_of_.resize(points_.size());
     is_alive_.assign(tets_.size(), 1);
     for (std::uint32_t t = 0; t < tets_.size(); ++t) {
       quality_.push_back(quality_of(tets_[t]));
       for (const std::uint32_t v : tets_[t]) tets_of_[v].push_back(t);
     }
-    for (std::uint32_t c = 0; c < kept_.size(); ++c)
-      for (int k = 0; k < vertex_count(kept_[c].type); ++k) kept_of_[kept_[c].vertices[k]].push_back(c);
   }
 
   CellImprovement improve() {
     done_.smallest_before = smallest();
     for (int round = 0; round < rounds; ++round) {
       const std::uint64_t before = done_.exchanges + done_.moves + done_.added_points;
-      for (const std::uint32_t t : worst_first(good_enough))
+      for (const std::uint32_t t : worst_first(good_enough_))
         if (is_alive_[t]) take_out_edge(t) || take_out_face(t);
       for (std::uint32_t v = 0; v < points_.size(); ++v)
         if (is_free_[v]) move(v);
-      for (const std::uint32_t t : worst_first(worth_a_point))
+      for (const std::uint32_t t : worst_first(worth_a_point_))
         if (is_alive_[t] && round > 0) add_point(t);
       if (before == done_.exchanges + done_.moves + done_.added_points) break;
     }
@@ -70,22 +81,16 @@ class Improver {
 
  private:
   double quality_of(const Tet& t) const {
-    return scaled_jacobian(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]);
+    const auto measure = measure_ == TetMeasure::smallest_sine ? smallest_sine : scaled_jacobian;
+    return measure(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]);
   }
-  double quality_of(const ThinCell& cell) const {
-    std::array<Vec3, 6> corners;
-    const auto count = static_cast<std::size_t>(vertex_count(cell.type));
-    for (std::size_t k = 0; k < count; ++k) corners[k] = points_[cell.vertices[k]];
-    if (state_of(cell, points_) == CellState::inverted) return 0;
-    return measure_cell(cell.type, std::span(corners).first(count)).scaled_jacobian;
-  }
+  double worst_kept_at(std::uint32_t v) const { return worst_kept_at_ ? worst_kept_at_(v, points_) : 1; }
   double smallest() const {
     double least = 1;
     for (std::size_t t = 0; t < tets_.size(); ++t)
       if (is_alive_[t]) least = std::min(least, quality_[t]);
-    for (std::size_t v = 0; v < points_.size(); ++v)
-      for (const std::uint32_t c : kept_of_[v])
-        if (is_free_[v]) least = std::min(least, quality_of(kept_[c]));
+    for (std::uint32_t v = 0; v < points_.size(); ++v)
+      if (is_free_[v]) least = std::min(least, worst_kept_at(v));
     return least;
   }
   std::vector<std::uint32_t> worst_first(double below) const {
@@ -258,16 +263,15 @@ class Improver {
   }
 
   double worst_around(std::uint32_t v) const {
-    double worst = 1;
+    double worst = worst_kept_at(v);
     for (const std::uint32_t t : tets_of_[v]) worst = std::min(worst, quality_of(tets_[t]));
-    for (const std::uint32_t c : kept_of_[v]) worst = std::min(worst, quality_of(kept_[c]));
     return worst;
   }
 
   /// Moves a free point to where its worst cell is better: a search along the axes with halving steps.
   bool move(std::uint32_t v) {
     double now = worst_around(v);
-    if (now > good_enough) return false;
+    if (now > good_enough_) return false;
     double step = 0;
     for (const std::uint32_t t : tets_of_[v])
       for (const std::uint32_t w : tets_[t]) step = std::max(step, length(points_[w] - points_[v]));
@@ -332,7 +336,6 @@ class Improver {
     points_.push_back(at);
     is_free_.push_back(1);
     tets_of_.emplace_back();
-    kept_of_.emplace_back();
     const std::size_t n = ring.corners.size();
     for (std::size_t k = 0; k < n; ++k) {
       add({v, b, ring.corners[k], ring.corners[(k + 1) % n]});
@@ -349,7 +352,6 @@ class Improver {
     points_.pop_back();
     is_free_.pop_back();
     tets_of_.pop_back();
-    kept_of_.pop_back();
   }
 
   static constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
@@ -357,10 +359,12 @@ class Improver {
   std::vector<Vec3>& points_;
   std::vector<char>& is_free_;
   std::vector<Tet>& tets_;
-  const std::vector<ThinCell>& kept_;
+  const TetMeasure measure_;
+  const double good_enough_, worth_a_point_;
+  const std::function<double(std::uint32_t, const std::vector<Vec3>&)>& worst_kept_at_;
   std::vector<Triangle> facets_;                           ///< ascending, each ascending
   std::vector<std::array<std::uint32_t, 2>> facet_edges_;  ///< ascending
-  std::vector<std::vector<std::uint32_t>> tets_of_, kept_of_;  ///< per point
+  std::vector<std::vector<std::uint32_t>> tets_of_;        ///< per point
   std::vector<char> is_alive_;
   std::vector<double> quality_;
   CellImprovement done_;
