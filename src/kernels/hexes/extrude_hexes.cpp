@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 
 #include "graph/parallel/parallel_map.h"
@@ -152,31 +151,9 @@ class Extrusion {
   /// Wedges around a point at a level: each gets the first of those it is connected with, through faces of the layers
   /// below and above that are no fault.
   std::vector<std::uint32_t> groups_around(std::uint32_t p, std::uint32_t level) const {
-    const std::uint32_t begin = edges_.first_wedge[p], count = edges_.wedge_count(p);
-    std::vector<std::uint32_t> group(count);
-    std::iota(group.begin(), group.end(), 0u);
-    const auto wedge_of = [&](std::uint32_t quad) {
-      for (std::uint32_t i = 0; i < count; ++i)
-        if (edges_.wedges[begin + i] / 4 == quad) return i;
-      return no_index;
-    };
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t corner = edges_.wedges[begin + i], q = corner / 4, k = corner % 4;
-      for (const std::uint32_t side : {k, (k + 3) % 4}) {
-        const std::uint32_t e = edges_.edge_of[4 * q + side];
-        const PlanEdge& edge = edges_.edges[e];
-        const std::uint32_t other = edge.quads[0] == q ? edge.quads[1] : edge.quads[0];
-        if (other == no_index) continue;
-        const bool is_open_below = level > 0 && !is_fault_face(e, level - 1);
-        const bool is_open_above = level < layers_ && !is_fault_face(e, level);
-        if (!is_open_below && !is_open_above) continue;
-        const std::uint32_t j = wedge_of(other);
-        const std::uint32_t low = std::min(group[i], group[j]), high = std::max(group[i], group[j]);
-        for (std::uint32_t& g : group)
-          if (g == high) g = low;
-      }
-    }
-    return group;
+    return edges_.wedge_groups(p, [&](std::uint32_t e) {
+      return (level > 0 && !is_fault_face(e, level - 1)) || (level < layers_ && !is_fault_face(e, level));
+    });
   }
 
   std::uint32_t point_at(std::uint32_t quad, std::uint32_t corner, std::uint32_t level) const {

@@ -14,11 +14,7 @@ namespace {
 /// none.
 std::vector<Vec3> directions_of_lines(const LabelledTets& tets, const WallSheets& sheets) {
   const std::vector<char> is_line = find_upright_lines(tets, sheets);
-  const auto down = [&](std::uint32_t edge) {
-    const auto& [a, b] = sheets.edges[edge].points;
-    const Vec3 along = tets.points[b] - tets.points[a];
-    return (-1 / along.z) * along;
-  };
+  const auto down = [&](std::uint32_t edge) { return down_edge(tets, sheets.edges[edge]); };
   std::vector<Vec3> at_point(tets.points.size());
   for (std::uint32_t e = 0; e < is_line.size(); ++e)
     if (is_line[e])

@@ -10,13 +10,12 @@
 namespace strataflow {
 namespace {
 
-constexpr double snap = 1e-9;         // weights nearer to 0 or 1 are 0 or 1
-constexpr double upright_sine = 0.2;  // lines where walls meet that rise less are none to go down by
+constexpr double snap = 1e-9;  // weights nearer to 0 or 1 are 0 or 1
 
 class WallTracer {
  public:
   WallTracer(const LabelledTets& tets, const WallSheets& sheets, const std::vector<Vec3>& gravity)
-      : tets_(tets), sheets_(sheets), is_line_(find_upright_lines(tets, sheets, upright_sine)) {
+      : tets_(tets), sheets_(sheets), is_line_(find_upright_lines(tets, sheets)) {
     for (const WallSheets::Wall& wall : sheets.walls) {
       Vec3 d = gravity[wall.tets[0]];
       if (wall.tets[1] != no_index) d = 0.5 * (d + gravity[wall.tets[1]]);
@@ -76,12 +75,7 @@ class WallTracer {
     return {-of_b - of_c, of_b, of_c};
   }
 
-  /// Straight along an edge, downwards, as (x, y, −1).
-  Vec3 down(std::uint32_t edge) const {
-    const auto& [a, b] = sheets_.edges[edge].points;
-    const Vec3 along = tets_.points[b] - tets_.points[a];
-    return (-1 / along.z) * along;
-  }
+  Vec3 down(std::uint32_t edge) const { return down_edge(tets_, sheets_.edges[edge]); }
 
   /// The field made continuous over a sheet, so that what goes down it never meets: at each corner the mean of the
   /// triangles around, or along the upright line it lies on.

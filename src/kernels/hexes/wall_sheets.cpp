@@ -13,7 +13,6 @@ namespace {
 
 constexpr double crease_cosine = -0.766;  // cos 140°, of the angle between both sides
 constexpr double steep_sine = 0.5;        // creases and lines where walls meet that rise by 30° are upright
-constexpr double flat_line_sine = 0.2;    // lines that rise less separate what is above from what is below
 
 double rise(const LabelledTets& tets, const std::array<std::uint32_t, 2>& edge) {
   const Vec3 along = tets.points[edge[1]] - tets.points[edge[0]];
@@ -105,16 +104,21 @@ WallSheets find_wall_sheets(const LabelledTets& tets) {
   return sheets;
 }
 
-std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets, double least_sine) {
+std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets) {
   std::vector<char> is_line;
   is_line.reserve(sheets.edges.size());
   for (const WallSheets::Edge& edge : sheets.edges) {
     const std::uint32_t first = sheets.walls[edge.walls.front()].sheet;
     is_line.push_back(std::any_of(edge.walls.begin(), edge.walls.end(),
                                   [&](std::uint32_t wall) { return sheets.walls[wall].sheet != first; }) &&
-                      rise(tets, edge.points) > least_sine);
+                      rise(tets, edge.points) > upright_sine);
   }
   return is_line;
+}
+
+Vec3 down_edge(const LabelledTets& tets, const WallSheets::Edge& edge) {
+  const Vec3 along = tets.points[edge.points[1]] - tets.points[edge.points[0]];
+  return (-1 / along.z) * along;
 }
 
 Result<void> check_walls(const LabelledTets& tets, const WallSheets& sheets, double flat_deg) {
@@ -154,7 +158,7 @@ Result<void> check_walls(const LabelledTets& tets, const WallSheets& sheets, dou
         Meeting& line = lines[{ending, other}];
         const double long_m = 0.5 * length(tets.points[edge.points[1]] - tets.points[edge.points[0]]);
         line.all_m += long_m;
-        if (rise(tets, edge.points) < flat_line_sine) line.flat_m += long_m;
+        if (rise(tets, edge.points) < upright_sine) line.flat_m += long_m;
       }
     }
   for (const auto& [pair, line] : lines) {

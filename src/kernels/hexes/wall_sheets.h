@@ -46,9 +46,15 @@ struct WallSheets {
 /// the corner of a box whose sides are one entity.
 WallSheets find_wall_sheets(const LabelledTets& tets);
 
-/// Per edge, whether several sheets meet along it and it rises by more than `least_sine`: points of all of them go down
-/// such a line.
-std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets, double least_sine = 0.2);
+/// Sine of the least slope of what points can go down by; lines where walls meet that rise less separate what is above
+/// from what is below.
+inline constexpr double upright_sine = 0.2;
+
+/// Per edge, whether several sheets meet along it and it is upright: points of all of them go down such a line.
+std::vector<char> find_upright_lines(const LabelledTets& tets, const WallSheets& sheets);
+
+/// Straight along an upright edge, downwards, as (x, y, −1).
+Vec3 down_edge(const LabelledTets& tets, const WallSheets::Edge& edge);
 
 /// Refuses what cannot be made upright, naming the entity: walls within `flat_deg` of horizontal, faults that end
 /// downwards on another fault (a Y) or on a side.

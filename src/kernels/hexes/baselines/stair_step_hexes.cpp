@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 
 #include "graph/parallel/parallel_map.h"
 #include "kernels/hexes/baselines/plan_frame.h"
@@ -274,25 +273,10 @@ class StairStep {
 
   /// Columns around a point that no fault parts at a level, each called by the first of them.
   std::vector<std::uint32_t> groups_around(std::uint32_t p, std::uint32_t level) const {
-    const std::uint32_t begin = edges_.first_wedge[p], count = edges_.wedge_count(p);
-    std::vector<std::uint32_t> group(count);
-    std::iota(group.begin(), group.end(), 0u);
-    for (std::uint32_t i = 0; i < count; ++i)
-      for (std::uint32_t j = 0; j < i; ++j) {
-        const std::uint32_t q = edges_.wedges[begin + i] / 4, other = edges_.wedges[begin + j] / 4;
-        for (std::uint32_t side = 0; side < 4; ++side) {
-          const std::uint32_t e = edges_.edge_of[4 * q + side];
-          const PlanEdge& edge = edges_.edges[e];
-          if (edge.quads[1] == no_index || edge.quads[0] + edge.quads[1] - q != other) continue;
-          const bool is_open = (level > 0 && fault_of_[e][level - 1] == no_index) ||
-                               (level < layers_ && fault_of_[e][level] == no_index);
-          if (!is_open) continue;
-          const std::uint32_t low = std::min(group[i], group[j]), high = std::max(group[i], group[j]);
-          for (std::uint32_t& g : group)
-            if (g == high) g = low;
-        }
-      }
-    return group;
+    return edges_.wedge_groups(p, [&](std::uint32_t e) {
+      return (level > 0 && fault_of_[e][level - 1] == no_index) ||
+             (level < layers_ && fault_of_[e][level] == no_index);
+    });
   }
 
   Pillar pillar(std::uint32_t p) const {

@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "base/result.h"
@@ -41,6 +43,27 @@ struct PlanEdges {
   }
 
   std::uint32_t wedge_count(std::uint32_t point) const { return first_wedge[point + 1] - first_wedge[point]; }
+
+  /// Per wedge around a point, the first of those it is connected with across edges for which `is_open(edge)`.
+  template <typename IsOpen>
+  std::vector<std::uint32_t> wedge_groups(std::uint32_t point, const IsOpen& is_open) const {
+    const std::uint32_t begin = first_wedge[point], count = wedge_count(point);
+    std::vector<std::uint32_t> group(count);
+    std::iota(group.begin(), group.end(), 0u);
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t quad = wedges[begin + i] / 4, corner = wedges[begin + i] % 4;
+      for (const std::uint32_t side : {corner, (corner + 3) % 4}) {
+        const std::uint32_t e = edge_of[4 * quad + side];
+        const std::uint32_t other = edges[e].quads[edges[e].quads[0] == quad ? 1 : 0];
+        for (std::uint32_t j = 0; j < i; ++j) {
+          if (wedges[begin + j] / 4 != other || group[j] == group[i] || !is_open(e)) continue;
+          const std::uint32_t low = std::min(group[i], group[j]), high = std::max(group[i], group[j]);
+          std::replace(group.begin(), group.end(), high, low);
+        }
+      }
+    }
+    return group;
+  }
 };
 
 /// Fails with invalid_input where the plan is no mesh of quads, or follows what the model has not.
