@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <compare>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace strataflow {
 struct FeatureEdge {
   std::uint32_t a = 0, b = 0;  ///< points, a < b
   std::uint32_t feature = 0;   ///< index into FeatureMesh::features
+  friend auto operator<=>(const FeatureEdge&, const FeatureEdge&) = default;
   static constexpr bool is_flat = true;
 };
 

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <tuple>
 
 #include "kernels/quads/extraction/check_features.h"
 #include "kernels/quads/extraction/check_quads.h"
 #include "kernels/quads/extraction/extract_quads.h"
 #include "kernels/quads/extraction/imprint_curves.h"
 #include "kernels/quads/extraction/subdivide_mesh.h"
+#include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {
 
@@ -39,13 +39,13 @@ Result<MeshedQuads> quads_of_map(const GridMapping& grid, std::int64_t rounds) {
 Result<MeshedQuads> quads_with_curves(const GridMapping& grid, std::int64_t rounds) {
   FeatureMesh whole = grid.mesh;
   whole.edges.insert(whole.edges.end(), grid.loose_edges.begin(), grid.loose_edges.end());
-  std::sort(whole.edges.begin(), whole.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-    return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-  });
+  std::sort(whole.edges.begin(), whole.edges.end());
+  const Result<QuadsOnGrid> on_grid = extract_quads_on_grid(grid.mesh, grid.map);
+  if (!on_grid) return on_grid.failure();
   std::optional<Result<MeshedQuads>> best;
   double best_jacobian = -2;
   for (const double snap : {0.45, 0.35, 0.2, 0.0}) {
-    Result<ImprintedCurves> made = imprint_curves(grid.mesh, grid.map, grid.loose_edges, snap);
+    Result<ImprintedCurves> made = imprint_curves(grid.mesh, *on_grid, grid.loose_edges, snap);
     if (!made) {
       if (!best) best = made.failure();
       continue;
@@ -63,9 +63,7 @@ Result<MeshedQuads> quads_with_curves(const GridMapping& grid, std::int64_t roun
   MeshedQuads& quads = **best;
   std::vector<std::uint32_t> features;
   for (const FeatureEdge& e : grid.loose_edges) features.push_back(e.feature);
-  std::sort(features.begin(), features.end());
-  features.erase(std::unique(features.begin(), features.end()), features.end());
-  for (const std::uint32_t f : features) {
+  for (const std::uint32_t f : sorted_unique(std::move(features))) {
     quads.imprinted.push_back(grid.mesh.features[f].name);
     quads.mesh.changes.push_back({"imprinted", "'" + quads.imprinted.back() + "'",
                                   "no map follows it: it was laid into the quads, which were divided once"});

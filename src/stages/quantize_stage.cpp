@@ -66,9 +66,7 @@ std::vector<FeatureEdge> split_edges(const std::vector<FeatureEdge>& edges, cons
       from = p;
     }
   }
-  std::sort(split.begin(), split.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-    return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-  });
+  std::sort(split.begin(), split.end());
   return split;
 }
 

@@ -17,15 +17,12 @@
 #include "stages/stratigraphic_function_stage.h"
 #include "stages/tetrahedralize_stage.h"
 #include "stages/verticalize_stage.h"
+#include "support/made.h"
 
 namespace strataflow {
 namespace {
 
-template <class T>
-T made(Result<T> result) {
-  EXPECT_TRUE(result) << describe(result.failure());
-  return result ? *std::move(result) : T{};
-}
+using support::made;
 
 const VolumeMesh& dipping() {
   static const VolumeMesh mesh = [] {

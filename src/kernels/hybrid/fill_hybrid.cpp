@@ -11,6 +11,7 @@
 #include "graph/parallel/parallel_map.h"
 #include "kernels/hybrid/interior_sites.h"
 #include "kernels/hybrid/worst_kept_cell.h"
+#include "kernels/topology/sorted_unique.h"
 #include "kernels/volumes/fill_regions.h"
 #include "kernels/volumes/refine_interior.h"
 #include "kernels/volumes/region_boundary.h"
@@ -97,13 +98,8 @@ void improve(const StructuralModel& model, Filled& filled) {
   const auto own = static_cast<std::uint32_t>(model.points.size());
   const auto may_move = [&](std::uint32_t p) { return p >= own + filled.zone.layer_points; };
   // Numbers: points of the cavity, those inside it, and beyond both the corners of cells beside a point that may move.
-  ImprovableCells cells;
-  cells.points = boundary.coordinates;
-  for (const std::uint32_t p : boundary.points) cells.is_free.push_back(may_move(p));
-  cells.points.insert(cells.points.end(), filled.tets.interior_points.begin(), filled.tets.interior_points.end());
-  cells.is_free.resize(cells.points.size(), 1);
-  cells.tets = filled.tets.tets;
-  cells.facets = boundary.facets;
+  ImprovableCells cells = improvable_cells(boundary, filled.tets);
+  std::transform(boundary.points.begin(), boundary.points.end(), cells.is_free.begin(), may_move);
   std::vector<ThinCell> kept;  // cells that stay, but whose points may move
   std::vector<std::uint32_t> beyond;
   const auto place_in = [](const std::vector<std::uint32_t>& list, std::uint32_t p) {
@@ -117,8 +113,7 @@ void improve(const StructuralModel& model, Filled& filled) {
     for (const std::uint32_t p : corners)
       if (place_in(boundary.points, p) == no_index) beyond.push_back(p);
   }
-  std::sort(beyond.begin(), beyond.end());
-  beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
+  beyond = sorted_unique(std::move(beyond));
   const auto first_beyond = static_cast<std::uint32_t>(cells.points.size());
   for (const std::uint32_t p : beyond) {
     cells.points.push_back(p < own ? model.points[p] : filled.zone.points[p - own]);
@@ -196,13 +191,10 @@ void mesh_inside(const StructuralModel& model, const FillHybridOptions& options,
   const std::vector<Vec3> sites = spread_interior_sites(
       boundary, dense, filled.sites_asked, static_cast<std::size_t>(options.lloyd_iterations), cancellation);
   const std::size_t set = insert_interior_points(boundary, dense, sites).size();
-  const auto own = options.fill.region_max_volume_m3.find(model.regions[boundary.region].name);
-  const InteriorGoal goal{own != options.fill.region_max_volume_m3.end() ? own->second : options.fill.max_volume_m3,
+  const InteriorGoal goal{options.fill.max_volume_in(model.regions[boundary.region].name),
                           options.fill.radius_edge_ratio};
   refine_interior(boundary, dense, goal, cancellation);
-  std::vector<Vec3> points = boundary.coordinates;
-  points.insert(points.end(), dense.interior_points.begin(), dense.interior_points.end());
-  auto verdict = verified_region_mesh(boundary, points, dense.tets, filled.cavity.volume_m3);
+  auto verdict = verified_region_mesh(boundary, points_of(boundary, dense), dense.tets, filled.cavity.volume_m3);
   if (RegionMesh* good = std::get_if<RegionMesh>(&verdict)) {
     filled.tets = std::move(*good);
     filled.sites = set;

@@ -15,17 +15,6 @@ namespace {
 
 constexpr double volume_of_edge = 0.7;  ///< a cell's volume over its edge's third power
 
-std::vector<Vec3> points_of(const RegionBoundary& boundary, const RegionMesh& mesh) {
-  std::vector<Vec3> points = boundary.coordinates;
-  points.insert(points.end(), mesh.interior_points.begin(), mesh.interior_points.end());
-  return points;
-}
-
-double volume_of(const std::vector<Vec3>& points, const Tet& tet) {
-  const Vec3& a = points[tet[0]];
-  return dot(cross(points[tet[1]] - a, points[tet[2]] - a), points[tet[3]] - a) / 6;
-}
-
 /// Per point the mean length of edges: at the boundary of those of its facets, inside of the boundary's points that
 /// share a tetrahedron with it.
 std::vector<double> edge_lengths(const RegionBoundary& boundary, const RegionMesh& mesh) {
@@ -108,10 +97,9 @@ std::vector<Vec3> spread_interior_sites(const RegionBoundary& boundary, const Re
     passed += shares[t];
     const auto next = [&] { return total * (static_cast<double>(sites.size()) + 0.5) / static_cast<double>(count); };
     while (sites.size() < count && next() < passed) {
-      std::array<double, 4> weight{};  // uniform in the tetrahedron: the gaps between three sorted numbers
       std::array<double, 3> cuts{random.unit(), random.unit(), random.unit()};
-      std::sort(cuts.begin(), cuts.end());
-      weight = {cuts[0], cuts[1] - cuts[0], cuts[2] - cuts[1], 1 - cuts[2]};
+      std::sort(cuts.begin(), cuts.end());  // the gaps between three sorted numbers are uniform in a tetrahedron
+      const std::array<double, 4> weight{cuts[0], cuts[1] - cuts[0], cuts[2] - cuts[1], 1 - cuts[2]};
       Vec3 at{};
       double edge_m = 0;
       for (std::size_t k = 0; k < 4; ++k) {
@@ -140,8 +128,6 @@ std::vector<Vec3> spread_interior_sites(const RegionBoundary& boundary, const Re
   const std::size_t own = boundary.coordinates.size();
   std::vector<Vec3> all = boundary.coordinates;
   all.insert(all.end(), sites.begin(), sites.end());
-  std::vector<char> is_fixed(all.size(), 0);
-  std::fill_n(is_fixed.begin(), own, 1);
   CvtTerms terms;
   for (std::size_t step = 0; step < lloyd_iterations && !(cancellation && cancellation->is_cancelled()); ++step) {
     energy.evaluate(all, false, terms);

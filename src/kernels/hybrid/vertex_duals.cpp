@@ -142,8 +142,7 @@ VertexDuals find_vertex_duals(const RegionBoundary& boundary, const RegionMesh& 
   VertexDuals duals;
   duals.is_dual.assign(mesh.tets.size(), 0);
   VertexDualCounts& counts = duals.counts;
-  std::vector<Vec3> points = boundary.coordinates;
-  points.insert(points.end(), mesh.interior_points.begin(), mesh.interior_points.end());
+  const std::vector<Vec3> points = points_of(boundary, mesh);
   const DelaunayTetrahedra delaunay = delaunay_tetrahedra(points);
   Box3 box;
   for (const Vec3& p : points) box.take(p);

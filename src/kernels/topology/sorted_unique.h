@@ -6,7 +6,8 @@
 namespace strataflow {
 
 /// The different values, ascending.
-inline std::vector<std::uint32_t> sorted_unique(std::vector<std::uint32_t> values) {
+template <typename Value = std::uint32_t>
+std::vector<Value> sorted_unique(std::vector<Value> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;

@@ -42,8 +42,7 @@ struct Job {
   }
   bool is_cancelled() const { return cancellation && cancellation->is_cancelled(); }
   InteriorGoal goal_of(std::uint32_t region) const {
-    const auto own = options.region_max_volume_m3.find(model.regions[region].name);
-    return {own != options.region_max_volume_m3.end() ? own->second : options.max_volume_m3, options.radius_edge_ratio};
+    return {options.max_volume_in(model.regions[region].name), options.radius_edge_ratio};
   }
 };
 
@@ -76,9 +75,7 @@ std::variant<RegionMesh, Rejection> refined_region_mesh(const Job& job, const Re
   if (!mesh || goal.is_empty()) return verdict;
   refine_interior(boundary, *mesh, goal, job.cancellation);
   if (job.is_cancelled()) return Rejection{"the run was cancelled"};
-  std::vector<Vec3> all_points = boundary.coordinates;
-  all_points.insert(all_points.end(), mesh->interior_points.begin(), mesh->interior_points.end());
-  return verified_region_mesh(boundary, all_points, mesh->tets, volume_m3);
+  return verified_region_mesh(boundary, points_of(boundary, *mesh), mesh->tets, volume_m3);
 }
 
 Filling fill_keeping_surfaces(const Job& job, const RegionBoundary& boundary) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <span>
 
@@ -371,6 +370,16 @@ class Improver {
 };
 
 }  // namespace
+
+ImprovableCells improvable_cells(const RegionBoundary& boundary, const RegionMesh& mesh) {
+  ImprovableCells cells;
+  cells.points = points_of(boundary, mesh);
+  cells.is_free.assign(boundary.coordinates.size(), 0);
+  cells.is_free.resize(cells.points.size(), 1);
+  cells.tets = mesh.tets;
+  cells.facets = boundary.facets;
+  return cells;
+}
 
 CellImprovement improve_cells(ImprovableCells& cells) { return Improver(cells).improve(); }
 

@@ -28,6 +28,9 @@ struct ImprovableCells {
   std::function<double(std::uint32_t point, const std::vector<Vec3>& points)> worst_kept_at;
 };
 
+/// Those of a region: its interior points are free, and its facets stay.
+ImprovableCells improvable_cells(const RegionBoundary& boundary, const RegionMesh& mesh);
+
 /// What was done, and the smallest measure of the tetrahedra and of kept cells with free points.
 struct CellImprovement {
   std::uint64_t exchanges = 0;     ///< edges and faces taken out

@@ -42,8 +42,7 @@ Sphere circumsphere(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
 class GrowingMesh {
  public:
   GrowingMesh(const RegionBoundary& boundary, const RegionMesh& mesh, const InteriorGoal& goal)
-      : goal_(goal), points_(boundary.coordinates), tets_(mesh.tets), facet_tets_(mesh.facet_tets) {
-    points_.insert(points_.end(), mesh.interior_points.begin(), mesh.interior_points.end());
+      : goal_(goal), points_(points_of(boundary, mesh)), tets_(mesh.tets), facet_tets_(mesh.facet_tets) {
     neighbours_ = tet_neighbours(boundary.facets, points_.size(), tets_);
     is_alive_.assign(tets_.size(), 1);
     generation_.assign(tets_.size(), 0);
@@ -115,7 +114,7 @@ class GrowingMesh {
     std::uint32_t tet, generation;
   };
 
-  double volume(const Tet& t) const { return volume_of(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]); }
+  double volume(const Tet& t) const { return volume_of(points_, t); }
   Sphere sphere(const Tet& t) const { return circumsphere(points_[t[0]], points_[t[1]], points_[t[2]], points_[t[3]]); }
   double squared_shortest_edge(const Tet& t) const {
     double shortest = std::numeric_limits<double>::infinity();

@@ -10,15 +10,21 @@ namespace strataflow {
 
 namespace {
 
-double volume_of(const std::vector<Vec3>& points, const Tet& tet) {
-  const Vec3& a = points[tet[0]];
-  return dot(cross(points[tet[1]] - a, points[tet[2]] - a), points[tet[3]] - a) / 6.0;
-}
-
 constexpr std::uint32_t behind_facet = no_index - 1;  ///< in a neighbour table: the face is a facet
 enum class Place : std::uint8_t { unknown, inside, outside };
 
 }  // namespace
+
+std::vector<Vec3> points_of(const RegionBoundary& boundary, const RegionMesh& mesh) {
+  std::vector<Vec3> points = boundary.coordinates;
+  points.insert(points.end(), mesh.interior_points.begin(), mesh.interior_points.end());
+  return points;
+}
+
+double volume_of(const std::vector<Vec3>& points, const Tet& tet) {
+  const Vec3& a = points[tet[0]];
+  return dot(cross(points[tet[1]] - a, points[tet[2]] - a), points[tet[3]] - a) / 6.0;
+}
 
 std::variant<RegionMesh, Rejection> verified_region_mesh(const RegionBoundary& boundary,
                                                          const std::vector<Vec3>& points, const std::vector<Tet>& tets,

@@ -20,6 +20,12 @@ struct RegionMesh {
   std::vector<std::array<std::uint32_t, 2>> facet_tets;
 };
 
+/// Coordinates by vertex: the boundary's, then the interior points.
+std::vector<Vec3> points_of(const RegionBoundary& boundary, const RegionMesh& mesh);
+
+/// m³, positive for the orientation of VolumeMesh.
+double volume_of(const std::vector<Vec3>& points, const Tet& tet);
+
 /// Why a mesh was not taken, in words.
 struct Rejection {
   std::string reason;

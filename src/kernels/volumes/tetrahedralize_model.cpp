@@ -40,9 +40,7 @@ std::optional<Failure> check(const StructuralModel& model, const TetrahedralizeO
   }
   constexpr double most_cells = 1e8;  // more than any machine holds; faces are counted in 31 bits (tet_faces.h)
   for (const Region& region : model.regions) {
-    const auto own = options.region_max_volume_m3.find(region.name);
-    const std::optional<double> largest =
-        own != options.region_max_volume_m3.end() ? std::optional(own->second) : options.max_volume_m3;
+    const std::optional<double> largest = options.max_volume_in(region.name);
     if (largest && region.volume_m3 > most_cells * *largest)
       return bad("the largest volume asked for makes more than 100 million tetrahedra of region '" + region.name + "'",
                  "raise max_volume_m3 or region_max_volume_m3");
@@ -55,13 +53,7 @@ std::optional<Failure> check(const StructuralModel& model, const TetrahedralizeO
 
 /// Makes the worst dihedral angles of a region better, without its surfaces. What cannot be verified is left as it was.
 void improve(const RegionBoundary& boundary, double volume_m3, double min_dihedral_deg, RegionMesh& mesh) {
-  ImprovableCells cells;
-  cells.points = boundary.coordinates;
-  cells.is_free.assign(cells.points.size(), 0);
-  cells.points.insert(cells.points.end(), mesh.interior_points.begin(), mesh.interior_points.end());
-  cells.is_free.resize(cells.points.size(), 1);
-  cells.tets = mesh.tets;
-  cells.facets = boundary.facets;
+  ImprovableCells cells = improvable_cells(boundary, mesh);
   cells.measure = TetMeasure::smallest_sine;
   cells.worth_a_point = std::sin(min_dihedral_deg * std::numbers::pi / 180);
   cells.good_enough = 2 * cells.worth_a_point;

@@ -23,6 +23,11 @@ struct TetrahedralizeOptions {
   double timeout_s = 300;                              ///< > 0
   std::int64_t memory_limit_mb = 8192;                 ///< ≥ 64
 
+  std::optional<double> max_volume_in(const std::string& region) const {
+    const auto own = region_max_volume_m3.find(region);
+    return own != region_max_volume_m3.end() ? own->second : max_volume_m3;
+  }
+
   template <class Visitor>
   void visit_fields(Visitor& visit) {
     visit(radius_edge_ratio, OptionField{.name = "radius_edge_ratio",

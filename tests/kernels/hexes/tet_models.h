@@ -60,9 +60,7 @@ inline QuadMesh plan_of(const ColumnModel& columns, double edge_m, double z_m = 
   for (const Entity& entity : columns.entities) plan.features.push_back({entity.name, entity.role, 0, -1});
   for (const Wall& wall : map.walls)
     plan.edges.push_back({std::min(wall.ends[0], wall.ends[1]), std::max(wall.ends[0], wall.ends[1]), wall.entity});
-  std::sort(plan.edges.begin(), plan.edges.end(), [](const FeatureEdge& a, const FeatureEdge& b) {
-    return std::array{a.a, a.b, a.feature} < std::array{b.a, b.b, b.feature};
-  });
+  std::sort(plan.edges.begin(), plan.edges.end());
   return plan;
 }
 

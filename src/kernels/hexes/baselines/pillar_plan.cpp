@@ -10,6 +10,7 @@
 #include "kernels/hexes/baselines/assign_pillar_lines.h"
 #include "kernels/intersection/bounding_volume_tree.h"
 #include "kernels/topology/building/edge_table.h"
+#include "kernels/topology/sorted_unique.h"
 #include "kernels/topology/union_find.h"
 
 namespace strataflow {
@@ -216,14 +217,7 @@ class PillarCutter {
         plan.quads.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
     for (const PillarLine& line : lines_.lines) add_edges(plan, line);
     add_outline(plan, columns, rows);
-    std::sort(plan.edges.begin(), plan.edges.end(), [](const FeatureEdge& a, const FeatureEdge& b) {
-      return std::array{a.a, a.b, a.feature} < std::array{b.a, b.b, b.feature};
-    });
-    plan.edges.erase(std::unique(plan.edges.begin(), plan.edges.end(),
-                                 [](const FeatureEdge& a, const FeatureEdge& b) {
-                                   return a.a == b.a && a.b == b.b && a.feature == b.feature;
-                                 }),
-                     plan.edges.end());
+    plan.edges = sorted_unique(std::move(plan.edges));
     return plan;
   }
 

@@ -75,9 +75,7 @@ class Refinement {
         from = to;
       }
     }
-    std::sort(refined.edges.begin(), refined.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-      return std::array{x.a, x.b, x.feature} < std::array{y.a, y.b, y.feature};
-    });
+    std::sort(refined.edges.begin(), refined.edges.end());
     return refined;
   }
 

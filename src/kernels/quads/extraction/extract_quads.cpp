@@ -130,17 +130,6 @@ class QuadExtraction {
     quads_.points.clear();
   }
 
-  std::uint32_t half_edge_between(std::uint32_t a, std::uint32_t b) const {
-    std::uint32_t h = exact_.first_out[a];
-    for (const std::uint32_t first = h; h != no_index;) {
-      if (end_of(h) == b) return h;
-      const std::uint32_t incoming = GridMap::previous(h);
-      if (mesh_.triangles[incoming / 3][incoming % 3] == b) return incoming;
-      h = exact_.opposite[incoming];
-      if (h == first) break;
-    }
-    return no_index;
-  }
   std::uint32_t end_of(std::uint32_t h) const { return mesh_.triangles[h / 3][GridMap::next(h) % 3]; }
 
   bool has_side(std::uint32_t a, std::uint32_t b) const {
@@ -156,9 +145,7 @@ class QuadExtraction {
     for (std::uint32_t f = 0; f < mesh_.features.size(); ++f)
       for (const auto& chain : feature_chains(mesh_.edges, mesh_.corners, f))
         if (const auto failure = cover(f, chain)) return failure;
-    std::sort(quads_.edges.begin(), quads_.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-      return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-    });
+    std::sort(quads_.edges.begin(), quads_.edges.end());
     return std::nullopt;
   }
 
@@ -166,7 +153,7 @@ class QuadExtraction {
   std::optional<Failure> cover(std::uint32_t f, const std::vector<std::uint32_t>& chain) {
     std::vector<std::uint32_t> on;  // vertices along the chain
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      const std::uint32_t h = half_edge_between(chain[i], chain[i + 1]);
+      const std::uint32_t h = exact_.half_edge_between(mesh_, chain[i], chain[i + 1]);
       if (h == no_index)
         return not_quads("\"" + mesh_.features[f].name + "\" leaves the mesh at " + place(mesh_.points[chain[i]]));
       if (graph_.at_point[chain[i]] != no_index) on.push_back(graph_.at_point[chain[i]]);

@@ -164,6 +164,19 @@ class MapRounding {
 
 }  // namespace
 
+std::uint32_t GridMap::half_edge_between(const FeatureMesh& mesh, std::uint32_t a, std::uint32_t b) const {
+  const auto origin = [&](std::uint32_t h) { return mesh.triangles[h / 3][h % 3]; };
+  std::uint32_t h = first_out[a];
+  for (const std::uint32_t first = h; h != no_index;) {
+    if (origin(next(h)) == b) return h;
+    const std::uint32_t incoming = previous(h);
+    if (origin(incoming) == b) return incoming;
+    h = opposite[incoming];
+    if (h == first) break;
+  }
+  return no_index;
+}
+
 Result<GridMap> exact_grid_map(const FeatureMesh& mesh, const CornerMap& map, double tolerance) {
   return MapRounding(mesh, map, tolerance).run();
 }

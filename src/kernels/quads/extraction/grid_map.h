@@ -26,6 +26,8 @@ struct GridMap {
   static constexpr std::uint32_t previous(std::uint32_t h) { return h % 3 == 0 ? h + 2 : h - 1; }
   /// A position of the opposite triangle of h, in the chart of h.
   GaussianInteger into(std::uint32_t h, GaussianInteger there) const { return turned(there, turns[h]) + shift[h]; }
+  /// A half-edge between two points of the mesh, from `a` to `b` unless the edge has only the other; no_index: none.
+  std::uint32_t half_edge_between(const FeatureMesh& mesh, std::uint32_t a, std::uint32_t b) const;
 };
 
 /// Twice the area of abc: its sign tells on which side of ab c lies. Exact.

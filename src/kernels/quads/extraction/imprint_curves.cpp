@@ -10,8 +10,8 @@
 
 #include "base/id.h"
 #include "kernels/quads/extraction/check_quads.h"
-#include "kernels/quads/extraction/extract_quads.h"
 #include "kernels/quads/plan/plane_geometry.h"
+#include "kernels/topology/sorted_unique.h"
 
 namespace strataflow {
 
@@ -57,8 +57,8 @@ using Cell = std::vector<Corner>;
 
 class CurveImprint {
  public:
-  CurveImprint(const FeatureMesh& mesh, const std::vector<FeatureEdge>& loose, double snap, QuadsOnGrid grid)
-      : mesh_(mesh), loose_(loose), snap_(snap), grid_(std::move(grid)), quads_(grid_.quads) {}
+  CurveImprint(const FeatureMesh& mesh, const std::vector<FeatureEdge>& loose, double snap, const QuadsOnGrid& grid)
+      : mesh_(mesh), loose_(loose), snap_(snap), grid_(grid), quads_(grid_.quads) {}
 
   Result<ImprintedCurves> run() {
     spread_quads();
@@ -169,18 +169,6 @@ class CurveImprint {
   }
   std::string place(const Vec3& p) const { return place_text(p, mesh_.local_origin); }
 
-  std::uint32_t half_edge_between(std::uint32_t a, std::uint32_t b) const {
-    std::uint32_t h = grid_.map.first_out[a];
-    for (const std::uint32_t first = h; h != no_index;) {
-      if (origin(GridMap::next(h)) == b) return h;
-      const std::uint32_t incoming = GridMap::previous(h);
-      if (origin(incoming) == b) return incoming;
-      h = grid_.map.opposite[incoming];
-      if (h == first) break;
-    }
-    return no_index;
-  }
-
   std::optional<Failure> trace_curves() {
     point_of_.assign(grid_.graph.vertices.size(), no_index);
     for (std::uint32_t p = 0; p < grid_.vertex_of.size(); ++p) point_of_[grid_.vertex_of[p]] = p;
@@ -276,7 +264,7 @@ class CurveImprint {
     if (!trail.is_closed) trail.events.push_back({.vertex = first});
     std::uint32_t quad = no_index, start_quad = no_index;
     for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
-      std::uint32_t h = half_edge_between(chain[i], chain[i + 1]);
+      std::uint32_t h = grid_.map.half_edge_between(mesh_, chain[i], chain[i + 1]);
       if (h == no_index) return fail(trail, "it leaves the mesh at " + place(mesh_.points[chain[i]]));
       // Always the triangle to the left, if there is one: a curve on a line of the grid keeps to one side.
       if (origin(h) != chain[i] && grid_.map.opposite[h] != no_index) h = grid_.map.opposite[h];
@@ -522,14 +510,9 @@ class CurveImprint {
     }
     for (const auto& [side, piece] : pieces_)
       for (const std::uint32_t feature : piece.features) add(side, feature);
-    const auto key = [](const FeatureEdge& e) { return std::tie(e.a, e.b, e.feature); };
-    std::sort(edges.begin(), edges.end(), [&](const FeatureEdge& a, const FeatureEdge& b) { return key(a) < key(b); });
-    edges.erase(std::unique(edges.begin(), edges.end(),
-                            [&](const FeatureEdge& a, const FeatureEdge& b) { return key(a) == key(b); }),
-                edges.end());
     out.quads = std::move(quads_);
     out.quads.quads = std::move(quads);
-    out.quads.edges = std::move(edges);
+    out.quads.edges = sorted_unique(std::move(edges));
     if (const Result<void> sound = check_quads(out.quads); !sound) return sound.failure();
     const std::vector<std::uint32_t> now = quad_valence(out.quads);
     const std::vector<char> is_boundary = boundary_points(out.quads);
@@ -546,8 +529,8 @@ class CurveImprint {
   const FeatureMesh& mesh_;
   const std::vector<FeatureEdge>& loose_;
   const double snap_;
-  const QuadsOnGrid grid_;  ///< as extracted
-  QuadMesh quads_;          ///< as it becomes
+  const QuadsOnGrid& grid_;  ///< as extracted
+  QuadMesh quads_;           ///< as it becomes
   std::vector<Placement> placements_;
   std::vector<std::uint32_t> first_placement_;           ///< per quad, plus one
   std::vector<std::vector<std::uint32_t>> in_triangle_;  ///< per triangle: placements
@@ -561,11 +544,9 @@ class CurveImprint {
 
 }  // namespace
 
-Result<ImprintedCurves> imprint_curves(const FeatureMesh& mesh, const CornerMap& map,
+Result<ImprintedCurves> imprint_curves(const FeatureMesh& mesh, const QuadsOnGrid& grid,
                                        const std::vector<FeatureEdge>& loose, double snap) {
-  Result<QuadsOnGrid> grid = extract_quads_on_grid(mesh, map);
-  if (!grid) return grid.failure();
-  return CurveImprint(mesh, loose, snap, std::move(*grid)).run();
+  return CurveImprint(mesh, loose, snap, grid).run();
 }
 
 }  // namespace strataflow

@@ -1,7 +1,6 @@
 #include "kernels/quads/extraction/subdivide_mesh.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "kernels/topology/building/edge_table.h"
 
@@ -31,9 +30,7 @@ QuadMesh subdivide_mesh(const FeatureMesh& mesh) {
     quads.edges.push_back({e.a, middle, e.feature});
     quads.edges.push_back({e.b, middle, e.feature});
   }
-  std::sort(quads.edges.begin(), quads.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-    return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-  });
+  std::sort(quads.edges.begin(), quads.edges.end());
   return quads;
 }
 

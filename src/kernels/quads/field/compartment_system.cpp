@@ -1,10 +1,10 @@
 #include "kernels/quads/field/compartment_system.h"
 
-#include <numeric>
 #include <optional>
 
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
+#include "kernels/topology/union_find.h"
 
 namespace strataflow {
 
@@ -16,21 +16,13 @@ Result<CompartmentSystem<Number>> CompartmentSystem<Number>::analyse(const std::
     if (row >= size || starts.back() != rows.size())
       return Failure{FailureCode::invalid_input, "the pattern of a sparse matrix has a row that is not there",
                      "build it with PatternBuilder"};
-  std::vector<std::uint32_t> root(size);
-  std::iota(root.begin(), root.end(), 0u);
-  const auto root_of = [&](std::uint32_t i) {
-    while (root[i] != i) i = root[i] = root[root[i]];
-    return i;
-  };
+  UnionFind connected(size);
   for (std::uint32_t c = 0; c < size; ++c)
-    for (std::uint32_t i = starts[c]; i < starts[c + 1]; ++i) {
-      const std::uint32_t a = root_of(c), b = root_of(rows[i]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
+    for (std::uint32_t i = starts[c]; i < starts[c + 1]; ++i) connected.unite(c, rows[i]);
   CompartmentSystem system;
   std::vector<std::uint32_t> number(size, no_index), place(size);
   for (std::uint32_t c = 0; c < size; ++c) {
-    std::uint32_t& compartment = number[root_of(c)];
+    std::uint32_t& compartment = number[connected.find(c)];
     if (compartment == no_index) {
       compartment = static_cast<std::uint32_t>(system.unknowns_.size());
       system.unknowns_.emplace_back();

@@ -58,9 +58,7 @@ class SurfaceFeatures {
     result_.points = std::move(surface_.points);
     result_.triangles = std::move(surface_.triangles);
     result_.edge_length_m = edge_length_m_;
-    std::sort(result_.edges.begin(), result_.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-      return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-    });
+    std::sort(result_.edges.begin(), result_.edges.end());
     return std::move(result_);
   }
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <deque>
 #include <numbers>
-#include <tuple>
 
 #include "kernels/adapters/cgal/constrained_delaunay.h"
 #include "kernels/quads/plan/open_corners.h"
@@ -147,9 +146,7 @@ class FeatureMeshBuilder {
       for (const std::uint32_t f : graph_.segments[segment].features)
         if (is_feature(f)) result_.edges.push_back({std::min(a, b), std::max(a, b), f});
     }
-    std::sort(result_.edges.begin(), result_.edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-      return std::tie(x.a, x.b, x.feature) < std::tie(y.a, y.b, y.feature);
-    });
+    std::sort(result_.edges.begin(), result_.edges.end());
     std::vector<double> outside_m(graph_.features.size(), 0);
     for (std::uint32_t s = 0; s < graph_.segments.size(); ++s)
       if (!is_segment_inside_[s])

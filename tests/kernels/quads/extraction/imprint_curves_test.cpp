@@ -34,6 +34,12 @@ LooseSample loosen(MappedMesh mapped) {
   return sample;
 }
 
+Result<ImprintedCurves> imprinted(const LooseSample& sample, double snap = 0.35) {
+  const Result<QuadsOnGrid> grid = extract_quads_on_grid(sample.mapped.mesh, sample.mapped.map);
+  if (!grid) return grid.failure();
+  return imprint_curves(sample.mapped.mesh, *grid, sample.loose, snap);
+}
+
 Polyline loose(std::vector<Vec3> points, const std::string& name = "loose", bool is_closed = false) {
   return line(name, Role::fault, std::move(points), is_closed);
 }
@@ -62,7 +68,7 @@ void expect_whole(const LooseSample& sample, const Result<ImprintedCurves>& made
 
 TEST(ImprintCurves, a_line_across_the_grid_becomes_a_chain_and_every_quad_four) {
   const LooseSample sample = loosen(rectangle(8, 6, {loose({{2, 1, 0}, {6, 4, 0}})}));
-  const auto made = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose, 0);
+  const auto made = imprinted(sample, 0);
   expect_whole(sample, made, 0.1);
   ASSERT_TRUE(made);
   // From (2, 1) to (6, 4) it crosses 3 + 2 sides and no vertex: six quads are split, each into cells whose corners
@@ -73,8 +79,8 @@ TEST(ImprintCurves, a_line_across_the_grid_becomes_a_chain_and_every_quad_four) 
 
 TEST(ImprintCurves, vertices_near_the_curve_move_onto_it) {
   const LooseSample sample = loosen(rectangle(12, 6, {loose({{1, 2, 0}, {11, 3, 0}})}));
-  const auto narrow = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose, 0);
-  const auto snapped = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose);
+  const auto narrow = imprinted(sample, 0);
+  const auto snapped = imprinted(sample);
   expect_whole(sample, narrow, 0.02);
   expect_whole(sample, snapped, 0.3);
   ASSERT_TRUE(narrow && snapped);
@@ -101,12 +107,12 @@ TEST(ImprintCurves, curves_that_bend_close_branch_and_run_side_by_side) {
     return x.x != std::round(x.x) || x.y != std::round(x.y);
   });
   whole.whole.corners = whole.mapped.mesh.corners;
-  expect_whole(whole, imprint_curves(whole.mapped.mesh, whole.mapped.map, whole.loose), 0.05);
+  expect_whole(whole, imprinted(whole), 0.05);
 }
 
 TEST(ImprintCurves, a_curve_along_the_grid_splits_nothing) {
   const LooseSample sample = loosen(rectangle(8, 6, {loose({{2, 3, 0}, {6, 3, 0}, {6, 5, 0}})}));
-  const auto made = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose);
+  const auto made = imprinted(sample);
   expect_whole(sample, made, 0.9999);
   ASSERT_TRUE(made);
   EXPECT_EQ(made->quads.quads.size(), 4 * 48u);
@@ -116,12 +122,12 @@ TEST(ImprintCurves, a_curve_along_the_grid_splits_nothing) {
 TEST(ImprintCurves, charts_and_their_seams_do_not_matter) {
   const LooseSample sample =
       loosen(rectangle(10, 8, {loose({{1, 1, 0}, {9, 4, 0}}), loose({{1, 7, 0}, {8, 5, 0}}, "loose b")}));
-  const auto plain = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose);
+  const auto plain = imprinted(sample);
   ASSERT_TRUE(plain) << describe(plain.failure());
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     LooseSample turned = sample;
     rechart(turned.mapped, seed);
-    const auto made = imprint_curves(turned.mapped.mesh, turned.mapped.map, turned.loose);
+    const auto made = imprinted(turned);
     expect_whole(turned, made, 0.2);
     ASSERT_TRUE(made);
     EXPECT_EQ(made->quads.quads.size(), plain->quads.quads.size());
@@ -153,7 +159,7 @@ TEST(ImprintCurves, a_curve_over_the_edge_of_a_box_stays_on_its_surface) {
   std::sort(sample.whole.edges.begin(), sample.whole.edges.end(), less);
   sample.mapped.mesh.corners =
       sample.whole.corners = {std::min(chain.front(), chain.back()), std::max(chain.front(), chain.back())};
-  const auto made = imprint_curves(sample.mapped.mesh, sample.mapped.map, sample.loose);
+  const auto made = imprinted(sample);
   ASSERT_TRUE(made) << describe(made.failure());
   EXPECT_EQ(features_not_followed(sample.whole, made->quads), std::vector<std::string>());
   for (const Vec3& p : made->quads.points) EXPECT_LT(std::min(std::abs(p.x - 4), std::abs(p.z - 4)), 1e-12);
@@ -166,7 +172,7 @@ TEST(ImprintCurves, says_where_an_open_curve_ends_inside_a_quad) {
   LooseSample ends = sample;
   const Vec3 tip{5.5, 4.25, 0};
   std::erase_if(ends.mapped.mesh.corners, [&](std::uint32_t p) { return ends.mapped.mesh.points[p] == tip; });
-  const auto made = imprint_curves(ends.mapped.mesh, ends.mapped.map, ends.loose);
+  const auto made = imprinted(ends);
   ASSERT_FALSE(made);
   EXPECT_NE(made.failure().what.find("'loose'"), std::string::npos);
   EXPECT_NE(made.failure().what.find("ends inside a quad at (5.50, 4.25)"), std::string::npos) << made.failure().what;

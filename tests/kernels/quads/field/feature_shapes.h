@@ -20,9 +20,7 @@ inline void add_feature(FeatureMesh& mesh, const std::string& name, const std::v
   mesh.features.push_back({name, Role::curve, 0, -1});
   for (std::size_t i = 0; i + 1 < path.size(); ++i)
     mesh.edges.push_back({std::min(path[i], path[i + 1]), std::max(path[i], path[i + 1]), feature});
-  std::sort(mesh.edges.begin(), mesh.edges.end(), [](const FeatureEdge& a, const FeatureEdge& b) {
-    return std::tie(a.a, a.b, a.feature) < std::tie(b.a, b.b, b.feature);
-  });
+  std::sort(mesh.edges.begin(), mesh.edges.end());
 }
 
 inline void add_corners(FeatureMesh& mesh, const std::vector<std::uint32_t>& points) {

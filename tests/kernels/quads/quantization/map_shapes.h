@@ -216,9 +216,7 @@ inline void move_point(MapShape& shape, std::uint32_t p, double x, double y) {
 /// Sorts what was added and computes turns and axes.
 inline void finish_shape(MapShape& shape) {
   auto& edges = shape.mesh.edges;
-  std::sort(edges.begin(), edges.end(), [](const FeatureEdge& x, const FeatureEdge& y) {
-    return std::array{x.a, x.b, x.feature} < std::array{y.a, y.b, y.feature};
-  });
+  std::sort(edges.begin(), edges.end());
   auto& corners = shape.mesh.corners;
   std::sort(corners.begin(), corners.end());
   corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
