@@ -55,7 +55,7 @@ struct SimulationGridReport {
   std::string layout;               ///< native, blocks, unstructured
   std::string reason;               ///< why it is not native
   std::uint32_t blocks = 0;         ///< rectangles of columns (and layers) that share pillars
-  std::uint32_t split_columns = 0;  ///< columns in more than one piece because a pillar is straight
+  std::uint32_t split_columns = 0;  ///< columns in several pieces, for straight pillars or fewer places
   std::uint32_t active_cells = 0;
   std::uint32_t dead_cells = 0;
   double occupancy_ratio = 0;             ///< columns with cells in all columns of the index box

@@ -44,7 +44,8 @@ struct SimulationGridStageOptions {
           OptionField{.name = "layout",
                       .description = "How columns get indices: native is one block of neighbours; unstructured gives "
                                      "each column pillars of its own and tells all lateral contacts; blocks packs "
-                                     "rectangles; automatic is native where the plan allows it, else unstructured",
+                                     "rectangles; automatic is native where the plan allows it, else blocks or "
+                                     "unstructured, whichever gives the smaller deck",
                       .words = {"automatic", "native", "blocks", "unstructured"}});
     visit(
         pillar_tolerance_m,
@@ -138,7 +139,7 @@ struct SimulationFiles {
 /// The corner-point grid of the hexahedra (coudert2024 S22), and a deck that runs on it (S23).
 struct MakeSimulationGrid {
   static constexpr std::string_view name = "simulation_grid";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   SimulationGridStageOptions options;
 
   Result<SimulationFiles> operator()(const SmoothedHexes& hexes, const CheckedHexes& checked, const LayeredSpace& space,

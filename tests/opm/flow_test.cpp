@@ -134,8 +134,10 @@ TEST_F(Opm, finds_the_same_pressure_in_bent_columns_split_in_K) {
       support::hex_grid(support::plan_grid(4, 2), 4, [](std::uint32_t, const Vec3& corner, std::uint32_t level) {
         return Vec3{corner.x + 0.4 * level * level, corner.y, -1000 + 10.0 * level};
       });
-  const auto split = run(hexes, GridLayout::automatic, {50, 50, 0}, {350, 150, 0});
+  const auto split = run(hexes, GridLayout::unstructured, {50, 50, 0}, {350, 150, 0});
   EXPECT_GT(split.grid.report.vertical_connections, 0u);
+  const auto packed = run(hexes, GridLayout::automatic, {50, 50, 0}, {350, 150, 0});
+  EXPECT_GT(packed.grid.report.vertical_connections, 0u);
   auto straight = build_simulation_grid(hexes, sand, {}, {GridLayout::native, 10.0});
   ASSERT_TRUE(straight) << describe(straight.failure());
   const auto wells =
@@ -143,7 +145,8 @@ TEST_F(Opm, finds_the_same_pressure_in_bent_columns_split_in_K) {
   ASSERT_TRUE(wells);
   const auto native = run_flow(folder_.path(), hexes, *straight, *wells, two_years);
   ASSERT_TRUE(native.succeeded) << native.output;
-  expect_same_pressure(split.run, native);
+  expect_same_pressure(split.run, packed.run);
+  expect_same_pressure(split.run, native, 5e-3);  // whose straight pillars leave corners 1.6 m off
 }
 
 TEST_F(Opm, runs_the_scenario_of_coudert2024_table_2_1_for_twenty_years) {

@@ -8,7 +8,6 @@
 #include "graph/parallel/parallel_map.h"
 #include "kernels/quality/measure_cell.h"
 #include "kernels/simulation_grid/cell_contacts.h"
-#include "kernels/simulation_grid/pack_rectangles.h"
 #include "kernels/simulation_grid/straight_pillars.h"
 
 namespace strataflow {
@@ -56,58 +55,16 @@ Result<void> check_options(const HexGrid& hexes, const std::vector<RegionRock>& 
   return {};
 }
 
-/// The blocks of a layout cut at bent pillars, and where each piece lies.
-struct Placement {
-  std::vector<PlanBlock> blocks;
-  std::vector<ColumnPiece> pieces;
-  Packing packing;
-  std::string layout, reason;
-};
-
-Result<Placement> place_columns(const HexGrid& hexes, const std::vector<std::uint32_t>& cells,
-                                const std::vector<std::uint32_t>& opposite, GridLayout layout, double tolerance_m) {
-  Placement placement;
-  if (layout == GridLayout::automatic || layout == GridLayout::native) {
-    auto native = native_block(hexes.plan, opposite);
-    if (native) {
-      placement.blocks = {std::move(*native)};
-      placement.pieces = split_at_bent_pillars(hexes, cells, placement.blocks, tolerance_m);
-      placement.layout = "native";
-      placement.packing = {placement.blocks[0].size, {{0, 0}}};
-      if (placement.pieces.size() == 1) return placement;
-      placement.reason = "corners lie further than pillar_tolerance_m from straight pillars";
-    } else {
-      placement.reason = native.failure().what;
-    }
-    if (layout == GridLayout::native)
-      return Failure{FailureCode::unsupported, "the grid has no native layout: " + placement.reason,
-                     "choose the layout blocks or unstructured"};
-  }
-  const bool packs = layout == GridLayout::blocks;
-  placement.layout = packs ? "blocks" : "unstructured";
-  placement.blocks = packs ? separatrix_blocks(hexes.plan, opposite) : single_blocks(hexes.plan);
-  const std::size_t whole = placement.blocks.size();
-  placement.pieces = split_at_bent_pillars(hexes, cells, placement.blocks, tolerance_m);
-  if (packs && placement.blocks.size() != whole) {  // the sides of a curved fault cannot share pillars
-    placement.blocks = separatrix_blocks(hexes.plan, opposite, true);
-    placement.pieces = split_at_bent_pillars(hexes, cells, placement.blocks, tolerance_m);
-  }
-  std::vector<std::array<std::uint32_t, 2>> sizes;
-  for (const ColumnPiece& piece : placement.pieces) sizes.push_back(placement.blocks[piece.block].size);
-  placement.packing = packs ? pack_rectangles(sizes) : line_up_rectangles(sizes);
-  return placement;
-}
-
 class SimulationGridBuilder {
  public:
-  SimulationGridBuilder(const HexGrid& hexes, const std::vector<std::uint32_t>& cells, Placement& placement)
+  SimulationGridBuilder(const HexGrid& hexes, const std::vector<std::uint32_t>& cells, ColumnPlacement& placement)
       : hexes_(hexes), cells_(cells), placement_(placement) {}
 
   Result<void> build_grid(std::uint64_t most_places) {
     turn_first_column();
     CornerPointGrid& grid = out.grid;
     grid.local_origin = hexes_.mesh.local_origin;
-    grid.size = {placement_.packing.size[0], placement_.packing.size[1], hexes_.layers};
+    grid.size = {placement_.packing.size[0], placement_.packing.size[1], placement_.height};
     set_pillars();
     if (!(handedness() > 0)) {  // a row and a column of nothing, whose pillars may stand anywhere
       ++grid.size[0], ++grid.size[1];
@@ -120,8 +77,8 @@ class SimulationGridBuilder {
           "the index box would have " + std::to_string(places) + " places for " +
               std::to_string(hexes_.mesh.cell_count()) + " cells, in " + std::to_string(placement_.pieces.size()) +
               " pieces of columns",
-          "raise hex.pillar_tolerance_m so that fewer columns are split, choose the layout blocks, or a coarser "
-          "grid"};
+          "leave hex.layout automatic, raise hex.pillar_tolerance_m so that fewer columns are split, or choose a "
+          "coarser grid"};
     set_cells();
     fill_empty_columns();
     return {};
@@ -347,20 +304,21 @@ class SimulationGridBuilder {
                   std::uint32_t j) {
     CornerPointGrid& grid = out.grid;
     has_column_[i + std::size_t{grid.size[0]} * j] = 1;
-    for (std::uint32_t k = 0; k < hexes_.layers; ++k) {
-      const std::uint32_t layer = hexes_.layers - 1 - k;
-      const bool is_inside = layer >= piece.low && layer < piece.high;
+    // As near to the place of their layers as the height of the box lets.
+    const std::uint32_t above = std::min(hexes_.layers - piece.high, placement_.height - (piece.high - piece.low));
+    for (std::uint32_t k = 0; k < placement_.height; ++k) {
+      const bool is_over = k < above, is_under = k >= above + piece.high - piece.low;
       // Places above and below the piece have no height.
-      const std::uint32_t nearest = std::clamp(layer, piece.low, piece.high - 1);
-      const std::uint32_t hex = cells_[std::size_t{quad} * hexes_.layers + nearest];
+      const std::uint32_t layer = is_over ? piece.high - 1 : is_under ? piece.low : piece.high - 1 - (k - above);
+      const std::uint32_t hex = cells_[std::size_t{quad} * hexes_.layers + layer];
       const std::uint32_t* vertices = &hexes_.mesh.cell_vertices[hexes_.mesh.cell_offsets[hex]];
       for (std::uint32_t c = 0; c < 4; ++c) {
         const std::uint32_t own = (turn + c) % 4;
         const double bottom = hexes_.mesh.points[vertices[own]].z, top = hexes_.mesh.points[vertices[own + 4]].z;
-        grid.corner_z[grid.corner({i, j, k}, corner_i[c], corner_j[c], 0)] = layer < piece.low ? bottom : top;
-        grid.corner_z[grid.corner({i, j, k}, corner_i[c], corner_j[c], 1)] = layer >= piece.high ? top : bottom;
+        grid.corner_z[grid.corner({i, j, k}, corner_i[c], corner_j[c], 0)] = is_under ? bottom : top;
+        grid.corner_z[grid.corner({i, j, k}, corner_i[c], corner_j[c], 1)] = is_over ? top : bottom;
       }
-      if (!is_inside) continue;
+      if (is_over || is_under) continue;
       const std::size_t cell = grid.cell(i, j, k);
       out.hex_of_cell[cell] = hex;
       cell_of_hex_[hex] = static_cast<std::uint32_t>(cell);
@@ -401,7 +359,7 @@ class SimulationGridBuilder {
 
   const HexGrid& hexes_;
   const std::vector<std::uint32_t>& cells_;
-  Placement& placement_;
+  ColumnPlacement& placement_;
   std::vector<std::uint32_t> cell_of_hex_, piece_of_hex_, turn_of_hex_;
   std::vector<std::uint8_t> has_column_;  ///< per column of the box
 };

@@ -3,25 +3,18 @@
 #include <vector>
 
 #include "base/result.h"
+#include "kernels/simulation_grid/place_columns.h"
 #include "model/hex_grid.h"
 #include "model/simulation_grid.h"
 
 namespace strataflow {
-
-/// How columns get indices.
-enum class GridLayout {
-  automatic,    ///< native where that is possible, else unstructured
-  native,       ///< one block: every contact is one of neighbours by index, pillars are shared
-  blocks,       ///< rectangles between separatrices, packed; contacts between blocks are NNCs (coudert2024 S22)
-  unstructured  ///< every other I is a column with its own pillars; all lateral contacts are NNCs
-};
 
 struct SimulationGridOptions {
   GridLayout layout = GridLayout::automatic;
   /// How far a corner may lie from its straight pillar before its column is split in K, metres, > 0. Nothing: 1 % of
   /// the mean edge of the plan.
   std::optional<double> pillar_tolerance_m;
-  std::uint64_t most_places = 20'000'000;  ///< of the index box; columns split in K need many that stay empty
+  std::uint64_t most_places = 20'000'000;  ///< of the index box
 };
 
 /// The corner-point grid of hexahedra in layers, with non-neighbour connections for all contacts that indices do not

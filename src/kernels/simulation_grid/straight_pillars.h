@@ -27,9 +27,11 @@ std::vector<Vec3> points_on_pillar(const HexGrid& hexes, const std::vector<std::
                                    std::uint32_t high);
 
 /// Cuts blocks in K so that all corners lie within the tolerance of straight pillars, from below, every piece as high
-/// as it can be. Blocks in which a single layer leaves its pillars (a curved fault between columns that share them)
-/// fall apart into their quads first, which replaces `blocks`. One piece per block where pillars are straight.
+/// as it can be, but no higher than `most_layers`. Blocks in which a single layer leaves its pillars (a curved fault
+/// between columns that share them) fall apart into their quads first, which replaces `blocks`. One piece per block
+/// where pillars are straight.
 std::vector<ColumnPiece> split_at_bent_pillars(const HexGrid& hexes, const std::vector<std::uint32_t>& cells,
-                                               std::vector<PlanBlock>& blocks, double tolerance_m);
+                                               std::vector<PlanBlock>& blocks, double tolerance_m,
+                                               std::uint32_t most_layers = no_index);
 
 }  // namespace strataflow

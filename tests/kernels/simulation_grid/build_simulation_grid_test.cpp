@@ -117,7 +117,7 @@ TEST(SimulationGrid, knows_right_from_left_by_its_corner_pillars) {
 TEST(SimulationGrid, falls_back_at_a_singular_vertex_and_says_why) {
   const HexGrid hexes = support::hex_grid(support::plan_star(5, 2), 2, support::flat_level);
   const SimulationGrid grid = build(hexes, GridLayout::automatic);
-  EXPECT_EQ(grid.report.layout, "unstructured");
+  EXPECT_EQ(grid.report.layout, "blocks");
   EXPECT_NE(grid.report.reason.find("singular"), std::string::npos);
   expect_same_neighbours(hexes, grid);
   const auto native = build_simulation_grid(hexes, sand, {}, {GridLayout::native, {}});
@@ -157,8 +157,9 @@ TEST(SimulationGrid, splits_bent_columns_in_K_and_joins_them_by_connections) {
   const SimulationGrid whole = build(hexes, GridLayout::automatic, 1000);
   EXPECT_EQ(whole.report.layout, "native");
   EXPECT_NEAR(whole.report.largest_deviation_m, 20, 1e-9);  // the chord of a parabola
-  const SimulationGrid split = build(hexes, GridLayout::automatic, 6);
-  EXPECT_EQ(split.report.layout, "unstructured");
+  EXPECT_EQ(build(hexes, GridLayout::automatic, 6).report.layout, "blocks");
+  const SimulationGrid split = build(hexes, GridLayout::unstructured, 6);
+  EXPECT_EQ(split.grid.size[2], 2u);
   EXPECT_EQ(split.report.split_columns, 4u);
   EXPECT_EQ(split.report.vertical_connections, 4u);  // two layers and two
   EXPECT_NEAR(split.report.largest_deviation_m, 5, 1e-9);
@@ -169,6 +170,34 @@ TEST(SimulationGrid, splits_bent_columns_in_K_and_joins_them_by_connections) {
   const SimulationGrid exact = build(hexes, GridLayout::unstructured, 1e-3);
   EXPECT_LT(exact.report.largest_deviation_m, 1e-9);
   EXPECT_LT(exact.report.largest_volume_error_ratio, 1e-12);
+}
+
+TEST(SimulationGrid, of_bent_columns_is_about_as_large_as_its_cells_are_many) {
+  const HexGrid hexes =
+      support::hex_grid(support::plan_grid(6, 5), 12, [](std::uint32_t, const Vec3& corner, std::uint32_t level) {
+        return Vec3{corner.x + 5.0 * level * level, corner.y, 10.0 * level};
+      });
+  for (const auto& [layout, most] : {std::pair{GridLayout::automatic, 1.5}, {GridLayout::unstructured, 2.0}}) {
+    const SimulationGrid grid = build(hexes, layout, 6);
+    EXPECT_LE(static_cast<double>(grid.grid.cell_count()), most * static_cast<double>(hexes.mesh.cell_count()));
+    EXPECT_LE(grid.report.largest_deviation_m, 6);
+    expect_same_neighbours(hexes, grid);
+    expect_same_cells(hexes, grid, 6);
+  }
+}
+
+TEST(SimulationGrid, puts_short_pieces_as_near_to_their_layers_as_the_box_lets) {
+  // One bent column beside straight ones: cutting all would not pay, so the box is as high as the grid.
+  const HexGrid hexes =
+      support::hex_grid(support::plan_grid(8, 1), 4, [](std::uint32_t quad, const Vec3& corner, std::uint32_t level) {
+        return Vec3{corner.x, corner.y - (quad == 7 && corner.y == 0 ? 5.0 * level * level : 0), 10.0 * level};
+      });
+  const SimulationGrid grid = build(hexes, GridLayout::unstructured, 6);
+  ASSERT_EQ(grid.grid.size[2], 4u);
+  EXPECT_EQ(grid.report.blocks, 9u);
+  for (std::size_t cell = 0; cell < grid.grid.cell_count(); ++cell)
+    if (grid.hex_of_cell[cell] != no_index)
+      EXPECT_EQ(grid.grid.indices(cell)[2], 3 - hexes.cell_layer[grid.hex_of_cell[cell]]);
 }
 
 TEST(SimulationGrid, computes_the_transmissibility_of_boxes_by_hand) {
@@ -225,7 +254,8 @@ TEST(SimulationGrid, is_the_same_on_every_schedule) {
   std::vector<std::byte> first;
   support::on_every_schedule([&](const char* schedule) {
     ArchiveWriter bytes;
-    for (const GridLayout layout : {GridLayout::unstructured, GridLayout::blocks}) bytes(build(hexes, layout));
+    for (const GridLayout layout : {GridLayout::unstructured, GridLayout::blocks, GridLayout::automatic})
+      for (const double tolerance_m : {1.0, 1e-3}) bytes(build(hexes, layout, tolerance_m));
     if (first.empty()) first = bytes.bytes();
     EXPECT_TRUE(first == bytes.bytes()) << schedule;
   });

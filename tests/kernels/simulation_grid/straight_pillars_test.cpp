@@ -41,6 +41,15 @@ TEST(SplitAtBentPillars, keeps_straight_columns_whole_and_cuts_bent_ones) {
   for (const ColumnPiece& piece : pieces) EXPECT_EQ(piece.high - piece.low, 2u);
 }
 
+TEST(SplitAtBentPillars, makes_no_piece_higher_than_asked) {
+  const HexGrid grid = listric_grid(8);
+  const auto cells = *cells_by_column(grid);
+  std::vector<PlanBlock> blocks = single_blocks(grid.plan);
+  const auto pieces = split_at_bent_pillars(grid, cells, blocks, 100, 3);
+  ASSERT_EQ(pieces.size(), 6u);
+  for (std::size_t p = 0; p < 3; ++p) EXPECT_EQ(pieces[p].high - pieces[p].low, p < 2 ? 3u : 2u);
+}
+
 TEST(SplitAtBentPillars, cuts_a_block_in_all_its_columns_at_once) {
   const HexGrid grid = listric_grid(8);
   const auto cells = *cells_by_column(grid);
