@@ -2,7 +2,6 @@
 
 #include "kernels/hexes/baselines/pillar_plan.h"
 #include "kernels/hexes/baselines/stair_step_hexes.h"
-#include "kernels/hexes/refine_tets.h"
 #include "model/box3.h"
 
 namespace strataflow {
@@ -26,17 +25,7 @@ Result<MeshedQuads> CutPillars::operator()(const FeatureMesh& problem, StageCont
 }
 
 Result<UprightModel> TakePlan::operator()(const VolumeMesh& tets, StageContext&) const {
-  UprightModel model;
-  Result<LabelledTets> labelled = label_tets(tets, options.drop_alignment);
-  if (!labelled) return labelled.failure();
-  model.model = *std::move(labelled);
-  Result<StratigraphicLevels> levels = find_stratigraphic_levels(model.model);
-  if (!levels) return levels.failure();
-  model.levels = *std::move(levels);
-  split_level_chords(model.model, model.levels);
-  model.plan = model.model.points;
-  for (Vec3& p : model.plan) p.z = 0;
-  return model;
+  return take_model(tets, options.drop_alignment);
 }
 
 Result<ExtrudedHexes> StairStep::operator()(const LayeredSpace& space, StageContext&) const {

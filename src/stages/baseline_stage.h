@@ -24,14 +24,15 @@ struct TakePlanOptions {
   std::vector<std::string> drop_alignment;
   template <class Visitor>
   void visit_fields(Visitor& visit) {
-    visit(drop_alignment, OptionField{.name = "drop_alignment", .description = "As verticalize's", .is_internal = true});
+    visit(drop_alignment,
+          OptionField{.name = "drop_alignment", .description = "As verticalize's", .is_internal = true});
   }
 };
 
 /// The model as it stands, for columns that need not follow faults: in the place of an upright plan.
 struct TakePlan {
   static constexpr std::string_view name = "take_plan";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   TakePlanOptions options;
 
   Result<UprightModel> operator()(const VolumeMesh& tets, StageContext& context) const;

@@ -10,6 +10,12 @@ Result<ExtrudedHexes> Extrude::operator()(const LayeredSpace& space, const Meshe
   if (hexes && hexes->report.unreached > 0)
     context.warn("unreached_corners", std::to_string(hexes->report.unreached) +
                                           " corners on faults took the nearest tetrahedron for their side");
+  if (hexes && hexes->report.bridged > 0)
+    context.warn("bridged_levels", std::to_string(hexes->report.bridged) +
+                                       " vertices beside faults that need not be followed lie evenly between horizons, "
+                                       "up to " +
+                                       OptionPrinter::literal(hexes->report.largest_bridged_m) +
+                                       " m from where their layers are");
   return hexes;
 }
 

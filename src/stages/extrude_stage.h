@@ -15,7 +15,7 @@ namespace strataflow {
 /// Hexahedra in layers (coudert2024 S14, S15): one per quad of the plan and layer.
 struct Extrude {
   static constexpr std::string_view name = "extrude";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   NoOptions options;
 
   Result<ExtrudedHexes> operator()(const LayeredSpace& space, const MeshedQuads& plan, StageContext& context) const;
@@ -46,7 +46,7 @@ struct SmoothHexesStageOptions {
 /// Improves the worst cells; horizons, faults, sides and wells keep their places.
 struct SmoothHexes {
   static constexpr std::string_view name = "smooth_hexes";
-  static constexpr int version = 2;
+  static constexpr int version = 3;
   SmoothHexesStageOptions options;
 
   Result<SmoothedHexes> operator()(const LayeredSpace& space, const ExtrudedHexes& hexes, StageContext& context) const;
@@ -64,11 +64,11 @@ struct CheckedHexes {
   }
 };
 
-/// Holds the grid against the model, and fails where a cell is inverted or faces away from faults do not conform: never a
-/// silently wrong mesh. Regions whose volume differs by more than their steps explain are warnings (`region_volume`).
+/// Holds the grid against the model, and fails where a cell is inverted or faces away from faults do not conform: never
+/// a silently wrong mesh. Regions whose volume differs by more than their steps explain are warnings (`region_volume`).
 struct CheckHexes {
   static constexpr std::string_view name = "check_hexes";
-  static constexpr int version = 1;
+  static constexpr int version = 2;
   NoOptions options;
 
   Result<CheckedHexes> operator()(const SmoothedHexes& hexes, const LayeredSpace& space, const MeshedQuads& plan,

@@ -34,8 +34,8 @@ struct SealStageOptions {
                                      "F3\" or \"H2.stone -> F3.border\" (the end of a slit onto a fault's tip)"});
     visit(trim, OptionField{.name = "trim",
                             .description = "Take away what juts out past contacts by no more than the distance"});
-    visit(trim_outside, OptionField{.name = "trim_outside",
-                                    .description = "Take away what lies outside the boundary surfaces"});
+    visit(trim_outside,
+          OptionField{.name = "trim_outside", .description = "Take away what lies outside the boundary surfaces"});
     visit(micro_region_volume_m3,
           OptionField{.name = "micro_region_volume_m3",
                       .description = "Regions smaller than this are merged with a neighbour; absent: the cube of a "
@@ -63,7 +63,7 @@ struct SealStageOptions {
 /// that came to lie on each other, juts, slivers (find_doubts).
 struct Seal {
   static constexpr std::string_view name = "seal";
-  static constexpr int version = 3;
+  static constexpr int version = 4;
   SealStageOptions options;
 
   Result<CutResult> operator()(const CutResult& cut, const SealingNeed& need, StageContext& context) const;

@@ -36,7 +36,7 @@ struct VerticalizeOptions {
 /// The plan of a model in which faults and sides stand upright (coudert2024 S8, S16–S19).
 struct Verticalize {
   static constexpr std::string_view name = "verticalize";
-  static constexpr int version = 4;
+  static constexpr int version = 5;
   VerticalizeOptions options;
 
   Result<UprightModel> operator()(const VolumeMesh& tets, StageContext& context) const;

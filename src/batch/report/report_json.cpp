@@ -503,10 +503,13 @@ Json hexes_block(const JobReport& report) {
   block["mean_scaled_jacobian"] = quality.mean_scaled_jacobian;
   block["smoothing"] = {{"min_scaled_jacobian_before", smoothing.min_before},
                         {"min_scaled_jacobian_after", smoothing.min_after},
+                        {"largest_warpage_ratio_before", smoothing.warpage_before},
+                        {"largest_warpage_ratio_after", smoothing.warpage_after},
                         {"moves", smoothing.moves},
                         {"sweeps", smoothing.sweeps}};
   block["largest_outside_m"] = extrusion.largest_outside_m;
   block["unreached_corners"] = extrusion.unreached;
+  block["bridged"] = {{"vertices", extrusion.bridged}, {"furthest_m", extrusion.largest_bridged_m}};
   block["levels"] = report.layered_space->layers.level_names;
   block["untangling"] = {{"turned_over_at_first", report.layered_space->turned_over_at_first},
                          {"steps", report.layered_space->untangling_steps}};

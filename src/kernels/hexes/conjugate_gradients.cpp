@@ -18,7 +18,7 @@ double inner(const std::vector<double>& a, const std::vector<double>& b) {
 
 std::size_t conjugate_gradients(const Multigrid& guide, const std::vector<double>& b, std::vector<double>& x,
                                 double tolerance_ratio, std::size_t most_steps) {
-  constexpr std::size_t grain = 16384;
+  constexpr std::size_t grain = 4096;
   const std::size_t size = b.size();
   const auto ranges = [&](auto&& item) {
     parallel_ranges(size, grain, [&](std::size_t begin, std::size_t end) {
@@ -31,8 +31,9 @@ std::size_t conjugate_gradients(const Multigrid& guide, const std::vector<double
   const double enough = tolerance_ratio * tolerance_ratio * inner(b, b);
   double energy = 1;
   std::size_t step = 0;
+  std::vector<Multigrid::Work> work;
   while (step < most_steps && inner(residual, residual) > enough) {
-    const std::vector<double> guided = guide(residual);
+    const std::vector<double>& guided = guide(residual, work);
     const double next = inner(residual, guided), turn = step == 0 ? 0 : next / energy;
     energy = next;
     ranges([&](std::size_t i) { direction[i] = guided[i] + turn * direction[i]; });

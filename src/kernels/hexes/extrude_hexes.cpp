@@ -17,13 +17,17 @@ namespace {
 class Extrusion {
  public:
   Extrusion(const LayeredSpace& space, const QuadMesh& plan, const PlanEdges& edges, const ExtrudeOptions& options)
-      : space_(space), plan_(plan), edges_(edges), layers_(space.layers.layer_count()),
+      : space_(space),
+        plan_(plan),
+        edges_(edges),
+        layers_(space.layers.layer_count()),
         lifter_(space, plan, edges, options) {}
 
   Result<ExtrudedHexes> extrude() {
     if (const auto quad = lifter_.outside_quad()) {
       const Vec3& p = plan_.points[plan_.quads[*quad][0]];
-      return bad_plan("the quad around (" + std::to_string(p.x) + ", " + std::to_string(p.y) + ") lies outside the model");
+      return bad_plan("the quad around (" + std::to_string(p.x) + ", " + std::to_string(p.y) +
+                      ") lies outside the model");
     }
     lift_fault_corners();
     find_fault_faces();
@@ -56,31 +60,32 @@ class Extrusion {
   }
 
   /// Per fault edge and layer, whether the fault is there: a ray through the middle of the vertical quad, seen from
-  /// either side, meets it (S15).
+  /// either side, meets it (S15). It is shot where faults stand upright, at the height of that middle: in space, the
+  /// normal of a quad below a fault that lies flat would meet what lies above.
   void find_fault_faces() {
     is_fault_.assign(edges_.edges.size(), {});
     std::vector<std::uint32_t> candidates;
+    upright_points_ = space_.plan;
+    for (std::size_t p = 0; p < upright_points_.size(); ++p) upright_points_[p].z = space_.model.points[p].z;
     for (std::uint32_t e = 0; e < edges_.edges.size(); ++e) {
       if (!edges_.edges[e].faults.empty()) candidates.push_back(e);
       for (const std::uint32_t fault : edges_.edges[e].faults)
-        if (surface_of_.emplace(fault, surfaces_.size()).second) surfaces_.emplace_back(space_.model, fault);
+        if (surface_of_.emplace(fault, surfaces_.size()).second)
+          surfaces_.emplace_back(space_.model, fault, upright_points_);
     }
     const std::vector<std::vector<char>> found = parallel_map(candidates.size(), [&](std::size_t i) {
       const PlanEdge& edge = edges_.edges[candidates[i]];
-      const double reach = length(plan_.points[edge.points[0]] - plan_.points[edge.points[1]]);
+      const Vec3 &begin = plan_.points[edge.points[0]], &end = plan_.points[edge.points[1]];
+      const Vec3 across = cross(end - begin, Vec3{0, 0, 1});  // as long as the edge
       std::vector<char> is_there(layers_, 0);
       for (std::uint32_t k = 0; k < layers_; ++k)
         for (std::size_t side = 0; side < 2 && !is_there[k]; ++side) {
           const std::uint32_t q = edge.quads[side], s = edge.sides[side];
-          const Vec3 &a = lift(q, s, k).position, &b = lift(q, s + 1, k).position;
-          const Vec3 &c = lift(q, s + 1, k + 1).position, &d = lift(q, s, k + 1).position;
-          Vec3 n = cross(c - a, d - b);
-          if (!(length(n) > 1e-12 * reach * reach)) n = cross(b - a, Vec3{0, 0, 1});  // a dead cell's face
-          if (!(length(n) > 0)) continue;
-          n = (reach / length(n)) * n;
-          const Vec3 middle = 0.25 * (a + b + c + d);
+          Vec3 middle = 0.5 * (begin + end);
+          middle.z = 0.25 * (lift(q, s, k).position.z + lift(q, s + 1, k).position.z +
+                             lift(q, s + 1, k + 1).position.z + lift(q, s, k + 1).position.z);
           for (const std::uint32_t fault : edge.faults)
-            is_there[k] = is_there[k] || surfaces_[surface_of_.at(fault)].meets(middle - n, middle + n);
+            is_there[k] = is_there[k] || surfaces_[surface_of_.at(fault)].meets(middle - across, middle + across);
         }
       return is_there;
     });
@@ -97,10 +102,13 @@ class Extrusion {
       std::vector<Vec3> positions;
       std::vector<std::uint32_t> of;  // per wedge and level; empty: per level alone
       double outside_m = 0;
-      std::uint64_t squeezed = 0;
+      std::uint64_t squeezed = 0, bridged = 0;
+      double bridged_m = 0;
       void add(const Lift& lift) {
         positions.push_back(lift.position);
         squeezed += lift.is_squeezed ? 1 : 0;
+        bridged += lift.is_bridged ? 1 : 0;
+        bridged_m = std::max(bridged_m, lift.bridged_m);
         outside_m = std::max(outside_m, lift.outside_m);
       }
     };
@@ -128,7 +136,11 @@ class Extrusion {
               const Lift* best = nullptr;
               for (std::uint32_t j = i; j < wedge_count; ++j) {
                 const Lift& one = lifts_[lifts_of_[edges_.wedges[edges_.first_wedge[p] + j]] + level];
-                if (group[j] == i && (best == nullptr || one.outside_m < best->outside_m)) best = &one;
+                // Bridged first: beside it, what another wedge holds for the level's place may lie far along it.
+                const auto rank = [](const Lift& lift) {
+                  return std::pair(!lift.is_bridged, lift.is_bridged ? 0.0 : lift.outside_m);
+                };
+                if (group[j] == i && (best == nullptr || rank(one) < rank(*best))) best = &one;
               }
               column.add(*best);
             }
@@ -144,6 +156,8 @@ class Extrusion {
       result_.report.largest_outside_m = std::max(result_.report.largest_outside_m, column.outside_m);
       copies_.push_back(column.of);
       result_.report.squeezed += column.squeezed;
+      result_.report.bridged += column.bridged;
+      result_.report.largest_bridged_m = std::max(result_.report.largest_bridged_m, column.bridged_m);
     }
     for (const Lift& one : lifts_) result_.report.unreached += one.is_unreached ? 1 : 0;
   }
@@ -172,7 +186,8 @@ class Extrusion {
     mesh.local_origin = space_.model.local_origin;
     mesh.entities = space_.model.entities;
     mesh.region_names = space_.model.region_names;
-    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) mesh.surface_entity.push_back(static_cast<std::int32_t>(e));
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+      mesh.surface_entity.push_back(static_cast<std::int32_t>(e));
     for (std::uint32_t q = 0; q < plan_.quads.size(); ++q)
       for (std::uint32_t k = 0; k < layers_; ++k) {
         std::array<std::uint32_t, 8> corners{};
@@ -230,6 +245,7 @@ class Extrusion {
   CornerLifter lifter_;
   std::unordered_map<std::uint32_t, std::size_t> surface_of_;  // fault entity to surfaces_; looked up
   std::vector<FaultSurface> surfaces_;
+  std::vector<Vec3> upright_points_;     // of the model: u, v, z
   std::vector<std::uint32_t> lifts_of_;  // per corner of a quad: first of lifts_, or no_index
   std::vector<Lift> lifts_;
   std::vector<std::vector<char>> is_fault_;  // per edge: per layer, or empty

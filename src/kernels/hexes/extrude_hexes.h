@@ -22,9 +22,11 @@ struct ExtrusionReport {
   std::uint64_t unreached = 0;   ///< corners on faults whose side no path leads to: the nearest tetrahedron was taken
   std::uint64_t squeezed = 0;    ///< places where a unit is thinner than its parallel layers: there they share it
   double largest_outside_m = 0;  ///< furthest a vertex lies outside the tetrahedra in UVW: weak verticality
+  std::uint64_t bridged = 0;     ///< vertices between horizons, beside faults that need not be followed (BridgedLevels)
+  double largest_bridged_m = 0;  ///< furthest one of these lies from where W is its own, or leaps over it
   template <class A>
   void archive(A& a) {
-    a(dead, degenerate, inverted, unreached, squeezed, largest_outside_m);
+    a(dead, degenerate, inverted, unreached, squeezed, largest_outside_m, bridged, largest_bridged_m);
   }
 };
 
@@ -44,7 +46,8 @@ struct ExtrudedHexes {
 /// horizons, top, bottom, sides and faults; two for each fault face with an offset, one where both sides match. Needs W
 /// without gaps. Fails with: invalid_input (no quads, quads outside the model, a fault the model has not),
 /// geometry_failed (more than 2³⁰ vertices).
-Result<ExtrudedHexes> extrude_hexes(const LayeredSpace& space, const QuadMesh& plan, const ExtrudeOptions& options = {});
+Result<ExtrudedHexes> extrude_hexes(const LayeredSpace& space, const QuadMesh& plan,
+                                    const ExtrudeOptions& options = {});
 
 /// Counts dead, degenerate and inverted cells anew and sets `is_dead`.
 void judge_cells(ExtrudedHexes& hexes);

@@ -72,6 +72,7 @@ Result<LayeredSpace> build_layered_space(LabelledTets model, StratigraphicLevels
   space.model = std::move(model);
   space.levels = std::move(levels);
   space.plan = std::move(plan);
+  space.changes = space.levels.changes;
   std::size_t split = 0;
   for (int round = 0;; ++round) {
     Result<StratigraphicTets> layers =
@@ -110,23 +111,36 @@ Result<LayeredSpace> build_layered_space(UprightModel upright, const LayerOption
   return space;
 }
 
-Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
-  Result<LabelledTets> tets = label_tets(mesh, options.drop_alignment);
+Result<UprightModel> take_model(const VolumeMesh& mesh, const std::vector<std::string>& drop_alignment) {
+  Result<LabelledTets> tets = label_tets(mesh, drop_alignment);
   if (!tets) return tets.failure();
   Result<StratigraphicLevels> levels = find_stratigraphic_levels(*tets);
   if (!levels) return levels.failure();
   forget_undisplaced(*tets, *levels);
   split_level_chords(*tets, *levels);
-  if (!stands_upright(*tets)) {
-    split_wall_chords(*tets, *levels);
-    split_level_chords(*tets, *levels);
-    separate_walls(*tets, *levels);
+  UprightModel model{std::move(*tets), std::move(*levels), {}, {}, 0, 0};
+  model.plan = model.model.points;
+  for (Vec3& p : model.plan) p.z = 0;
+  return model;
+}
+
+Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {
+  Result<UprightModel> made = take_model(mesh, options.drop_alignment);
+  if (!made) return made;
+  LabelledTets& tets = made->model;
+  StratigraphicLevels& levels = made->levels;
+  if (!stands_upright(tets)) {
+    split_wall_chords(tets, levels);
+    split_level_chords(tets, levels);
+    separate_walls(tets, levels);
   }
-  Result<UprightPlan> upright = verticalise(*tets, {options.untangling_steps});
+  Result<UprightPlan> upright = verticalise(tets, {options.untangling_steps});
   if (!upright) return upright.failure();
-  std::vector<Polyline> lines = plan_lines(*tets, *upright, options.follow_horizon_lines);
-  return UprightModel{std::move(*tets), std::move(*levels),         std::move(upright->plan),
-                      std::move(lines), upright->flipped_by_linear, upright->untangling_steps};
+  made->lines = plan_lines(tets, *upright, options.follow_horizon_lines);
+  made->plan = std::move(upright->plan);
+  made->turned_over_at_first = upright->flipped_by_linear;
+  made->untangling_steps = upright->untangling_steps;
+  return made;
 }
 
 Result<LayeredSpace> make_layered_space(const VolumeMesh& mesh, const LayeredSpaceOptions& options) {

@@ -13,10 +13,10 @@ namespace strataflow {
 struct LayeredSpace {
   LabelledTets model;
   StratigraphicLevels levels;
-  std::vector<Vec3> plan;     ///< per point of the model: u, v, 0
+  std::vector<Vec3> plan;  ///< per point of the model: u, v, 0
   StratigraphicTets layers;
-  std::vector<std::uint32_t> flipped;  ///< of layers.tets, not positive in UVW: slivers that lifting leaves aside
-  std::vector<Polyline> lines;         ///< what quads over the plan must follow (plan_lines)
+  std::vector<std::uint32_t> flipped;      ///< of layers.tets, not positive in UVW: slivers that lifting leaves aside
+  std::vector<Polyline> lines;             ///< what quads over the plan must follow (plan_lines)
   std::uint32_t turned_over_at_first = 0;  ///< tetrahedra the linear deformation turned over, before untangling
   std::uint32_t untangling_steps = 0;
   std::vector<Change> changes;
@@ -30,8 +30,8 @@ struct LayeredSpace {
 struct UprightModel {
   LabelledTets model;
   StratigraphicLevels levels;
-  std::vector<Vec3> plan;       ///< per point of the model: u, v, 0
-  std::vector<Polyline> lines;  ///< what quads over the plan must follow (plan_lines)
+  std::vector<Vec3> plan;                  ///< per point of the model: u, v, 0
+  std::vector<Polyline> lines;             ///< what quads over the plan must follow (plan_lines)
   std::uint32_t turned_over_at_first = 0;  ///< as in LayeredSpace
   std::uint32_t untangling_steps = 0;
   template <class A>
@@ -43,12 +43,16 @@ struct UprightModel {
 struct LayeredSpaceOptions {
   std::vector<std::string> drop_alignment;  ///< entities that need not be followed
   LayerOptions layers;
-  bool follow_horizon_lines = false;        ///< lines where horizons meet are among `lines` (S19)
-  std::int64_t untangling_steps = 600;      ///< ≥ 0: at most, where faults are far from upright
+  bool follow_horizon_lines = false;    ///< lines where horizons meet are among `lines` (S19)
+  std::int64_t untangling_steps = 600;  ///< ≥ 0: at most, where faults are far from upright
 };
 
-/// From the tetrahedra of a model to their plan: labels, levels, upright faults; `options.layers` says nothing here. Fails
-/// with what label_tets, find_stratigraphic_levels and verticalise fail with.
+/// The model as it stands: labels, levels, nothing upright; its plan is what is seen from above. Faults that need not
+/// be followed and displace nothing are forgotten. Fails with what label_tets and find_stratigraphic_levels fail with.
+Result<UprightModel> take_model(const VolumeMesh& mesh, const std::vector<std::string>& drop_alignment = {});
+
+/// From the tetrahedra of a model to their plan: labels, levels, upright faults; `options.layers` says nothing here.
+/// Fails with what label_tets, find_stratigraphic_levels and verticalise fail with.
 Result<UprightModel> make_upright(const VolumeMesh& mesh, const LayeredSpaceOptions& options = {});
 
 /// From the tetrahedra of a model to its layered space: make_upright, then build_layered_space.

@@ -6,11 +6,12 @@
 
 #include "base/id.h"
 #include "graph/parallel/parallel_map.h"
+#include "graph/parallel/unset_vector.h"
 
 namespace strataflow {
 namespace {
 
-constexpr std::size_t grain = 16384;  // rows: shorter loops are not worth a second thread
+constexpr std::size_t grain = 2048;  // rows: those of coarse levels are long; shorter loops are not worth a thread
 
 /// Which nodes are joined strongly.
 struct NodeGraph {
@@ -43,7 +44,8 @@ NodeGraph strong_graph(const SparseRows& matrix, const SoftModes& modes) {
       for (std::uint32_t i = modes.first[n]; i < modes.first[n + 1]; ++i)
         for (std::uint32_t k = matrix.first[i]; k < matrix.first[i + 1]; ++k) {
           const std::uint32_t j = matrix.columns[k];
-          if (node[j] == n || !(std::abs(matrix.values[k]) > strong_ratio * std::sqrt(diagonal[i] * diagonal[j]))) continue;
+          if (node[j] == n || !(std::abs(matrix.values[k]) > strong_ratio * std::sqrt(diagonal[i] * diagonal[j])))
+            continue;
           part.push_back(node[j]);
         }
       std::sort(part.begin() + from, part.end());
@@ -200,6 +202,19 @@ SparseRows transposed(const SparseRows& matrix, std::uint32_t columns) {
   return result;
 }
 
+/// Fills a matrix, whose `first` has lengths of rows, with the entries of its parts of `each` rows.
+void append_rows(std::vector<SparseRows>& parts, std::size_t each, SparseRows& rows) {
+  for (std::size_t i = 1; i < rows.first.size(); ++i) rows.first[i] += rows.first[i - 1];
+  rows.columns.resize(rows.first.back());
+  rows.values.resize(rows.first.back());
+  parallel_ranges(parts.size(), 1, [&](std::size_t p, std::size_t) {
+    const auto at = static_cast<std::ptrdiff_t>(rows.first[p * each]);
+    std::copy(parts[p].columns.begin(), parts[p].columns.end(), rows.columns.begin() + at);
+    std::copy(parts[p].values.begin(), parts[p].values.end(), rows.values.begin() + at);
+    parts[p] = {};
+  });
+}
+
 /// a · b; with `inverse` instead b − share · diag(inverse) · a · b, which smooths b's columns.
 SparseRows product(const SparseRows& a, const SparseRows& b, std::uint32_t columns,
                    const std::vector<double>* inverse = nullptr, double share = 0) {
@@ -230,14 +245,7 @@ SparseRows product(const SparseRows& a, const SparseRows& b, std::uint32_t colum
       result.first[i + 1] = static_cast<std::uint32_t>(part.columns.size() - from);
     }
   });
-  for (std::size_t i = 0; i < rows; ++i) result.first[i + 1] += result.first[i];
-  result.columns.reserve(result.first.back());
-  result.values.reserve(result.first.back());
-  for (SparseRows& part : parts) {
-    result.columns.insert(result.columns.end(), part.columns.begin(), part.columns.end());
-    result.values.insert(result.values.end(), part.values.begin(), part.values.end());
-    part = {};
-  }
+  append_rows(parts, each, result);
   return result;
 }
 
@@ -261,30 +269,49 @@ double row_times(const SparseRows& matrix, std::size_t i, const std::vector<doub
 }  // namespace
 
 SparseRows symmetric_rows(std::uint32_t size, const std::vector<MatrixEntry>& lower) {
-  std::vector<std::uint32_t> start(size + 1, 0);
-  for (const MatrixEntry& entry : lower) {
-    ++start[entry.row + 1];
-    if (entry.row != entry.column) ++start[entry.column + 1];
-  }
-  for (std::uint32_t i = 0; i < size; ++i) start[i + 1] += start[i];
+  // Bands of rows get the entries of both triangles, list by list: in each row they keep the order given.
   struct Item {
-    std::uint32_t column;
+    std::uint32_t row, column;
     double value;
   };
-  std::vector<Item> items(start[size]);
-  std::vector<std::uint32_t> next(start.begin(), start.end() - 1);
-  for (const MatrixEntry& entry : lower) {
-    items[next[entry.row]++] = {entry.column, entry.value};
-    if (entry.row != entry.column) items[next[entry.column]++] = {entry.row, entry.value};
+  constexpr std::size_t list = 1 << 16, most_bands = 64;
+  const std::size_t band_rows = std::max<std::size_t>(1024, size / most_bands + 1),
+                    bands = (size + band_rows - 1) / band_rows, lists = (lower.size() + list - 1) / list;
+  const auto visit = [&](std::size_t begin, std::size_t end, auto&& take) {
+    for (std::size_t e = begin; e < end; ++e) {
+      const MatrixEntry& entry = lower[e];
+      take(Item{entry.row, entry.column, entry.value});
+      if (entry.row != entry.column) take(Item{entry.column, entry.row, entry.value});
+    }
+  };
+  std::vector<std::size_t> next(lists * bands, 0), band_first(bands + 1, 0);
+  parallel_ranges(lower.size(), list, [&](std::size_t begin, std::size_t end) {
+    visit(begin, end, [&](const Item& item) { ++next[begin / list * bands + item.row / band_rows]; });
+  });
+  std::size_t total = 0;
+  for (std::size_t band = 0; band < bands; ++band) {
+    for (std::size_t l = 0; l < lists; ++l) total += std::exchange(next[l * bands + band], total);
+    band_first[band + 1] = total;
   }
-  // Entries of one place are summed in the order given.
+  UnsetVector<Item> items(total);
+  parallel_ranges(lower.size(), list, [&](std::size_t begin, std::size_t end) {
+    visit(begin, end, [&](const Item& item) { items[next[begin / list * bands + item.row / band_rows]++] = item; });
+  });
+  std::vector<SparseRows> parts(bands);
   SparseRows rows;
   rows.first.assign(size + 1, 0);
-  parallel_ranges(size, 1024, [&](std::size_t begin, std::size_t end) {
+  parallel_ranges(size, band_rows, [&](std::size_t begin, std::size_t end) {
+    const std::size_t band = begin / band_rows;
+    std::vector<std::size_t> start(end - begin + 1, 0);
+    for (std::size_t e = band_first[band]; e < band_first[band + 1]; ++e) ++start[items[e].row - begin + 1];
+    for (std::size_t i = 0; i < end - begin; ++i) start[i + 1] += start[i];
+    UnsetVector<Item> own(start.back());
+    std::vector<std::size_t> place(start.begin(), start.end() - 1);
+    for (std::size_t e = band_first[band]; e < band_first[band + 1]; ++e) own[place[items[e].row - begin]++] = items[e];
     for (std::size_t i = begin; i < end; ++i) {
-      Item* const from = items.data() + start[i];
+      Item* const from = own.data() + start[i - begin];
       Item* last = from;
-      for (const Item* it = from; it != items.data() + start[i + 1]; ++it) {
+      for (const Item* it = from; it != own.data() + start[i - begin + 1]; ++it) {
         Item* same = from;
         while (same != last && same->column != it->column) ++same;
         if (same == last)
@@ -293,19 +320,14 @@ SparseRows symmetric_rows(std::uint32_t size, const std::vector<MatrixEntry>& lo
           same->value += it->value;
       }
       std::sort(from, last, [](const Item& a, const Item& b) { return a.column < b.column; });
+      for (const Item* it = from; it != last; ++it) {
+        parts[band].columns.push_back(it->column);
+        parts[band].values.push_back(it->value);
+      }
       rows.first[i + 1] = static_cast<std::uint32_t>(last - from);
     }
   });
-  for (std::uint32_t i = 0; i < size; ++i) rows.first[i + 1] += rows.first[i];
-  rows.columns.resize(rows.first.back());
-  rows.values.resize(rows.first.back());
-  parallel_ranges(size, 1024, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::uint32_t k = rows.first[i]; k < rows.first[i + 1]; ++k) {
-        rows.columns[k] = items[start[i] + k - rows.first[i]].column;
-        rows.values[k] = items[start[i] + k - rows.first[i]].value;
-      }
-  });
+  append_rows(parts, band_rows, rows);
   return rows;
 }
 
@@ -324,7 +346,7 @@ SoftModes constant_mode(std::uint32_t size) {
 }
 
 Multigrid::Multigrid(SparseRows matrix, SoftModes modes) {
-  constexpr std::uint32_t small = 600;    // factorised
+  constexpr std::uint32_t small = 600;  // factorised
   constexpr std::size_t most_levels = 20;
   constexpr double smoothing_share = 4.0 / 3;
   levels_.push_back({std::move(matrix), {}, {}, {}});
@@ -354,22 +376,36 @@ Multigrid::Multigrid(SparseRows matrix, SoftModes modes) {
   if (factor) coarsest_.emplace(std::move(*factor));
 }
 
-std::vector<double> Multigrid::operator()(const std::vector<double>& b) const { return cycle(0, b); }
+std::vector<double> Multigrid::operator()(const std::vector<double>& b) const {
+  std::vector<Work> work;
+  return (*this)(b, work);
+}
+
+const std::vector<double>& Multigrid::operator()(const std::vector<double>& b, std::vector<Work>& work) const {
+  work.resize(levels_.size());
+  work.front().residual = b;
+  cycle(0, work);
+  return work.front().x;
+}
 
 /// Two Chebyshev steps over the upper eigenvalues, the coarser level, two more.
-std::vector<double> Multigrid::cycle(std::size_t index, std::vector<double> residual) const {
+void Multigrid::cycle(std::size_t index, std::vector<Work>& work) const {
   constexpr double low = 0.1, high = 1, middle = 0.5 * (high + low), half = 0.5 * (high - low), sigma = middle / half,
                    turn = 1 / (2 * sigma - 1 / sigma), keep = turn / sigma, pull = 2 * turn / half;
   const Level& level = levels_[index];
   const bool is_last = index + 1 == levels_.size();
-  if (is_last && coarsest_) return coarsest_->solve(residual);
+  auto& [residual, x, first, second] = work[index];
+  if (is_last && coarsest_) {
+    x = coarsest_->solve(residual);
+    return;
+  }
   const std::size_t size = residual.size();
   const auto ranges = [&](auto&& item) {
     parallel_ranges(size, grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) item(i);
     });
   };
-  std::vector<double> x(size), first(size), second(size);
+  for (std::vector<double>* values : {&x, &first, &second}) values->resize(size);
   const auto smooth = [&](bool is_first) {
     ranges([&](std::size_t i) { first[i] = level.inverse[i] * residual[i] / middle; });
     ranges([&](std::size_t i) {
@@ -381,17 +417,15 @@ std::vector<double> Multigrid::cycle(std::size_t index, std::vector<double> resi
   smooth(true);
   if (!is_last) {
     ranges([&](std::size_t i) { residual[i] -= row_times(level.matrix, i, second); });
-    std::vector<double> below(level.down.size());
-    multiply(level.down, residual, below);
-    const std::vector<double> correction = cycle(index + 1, std::move(below));
-    multiply(level.up, correction, first);
+    multiply(level.down, residual, work[index + 1].residual);
+    cycle(index + 1, work);
+    multiply(level.up, work[index + 1].x, first);
     ranges([&](std::size_t i) {
       residual[i] -= row_times(level.matrix, i, first);
       x[i] += first[i];
     });
     smooth(false);
   }
-  return x;
 }
 
 }  // namespace strataflow

@@ -25,9 +25,9 @@ void multiply(const SparseRows& matrix, const std::vector<double>& v, std::vecto
 
 /// What a matrix hardly resists: up to two vectors, and which unknowns belong together.
 struct SoftModes {
-  std::vector<std::uint32_t> first;             ///< per node, plus one: its unknowns, which lie side by side
+  std::vector<std::uint32_t> first;  ///< per node, plus one: its unknowns, which lie side by side
   std::vector<std::array<double, 2>> of_unknown;
-  std::uint32_t count = 1;                      ///< of vectors
+  std::uint32_t count = 1;  ///< of vectors
 };
 
 /// Every unknown a node of its own; all of them alike is what is not resisted.
@@ -44,13 +44,20 @@ class Multigrid {
   const SparseRows& matrix() const { return levels_.front().matrix; }
   std::vector<double> operator()(const std::vector<double>& b) const;
 
+  /// What a cycle needs at each level, made once for many.
+  struct Work {
+    std::vector<double> residual, x, first, second;
+  };
+  /// The same; the result stays valid until the next call with this `work`.
+  const std::vector<double>& operator()(const std::vector<double>& b, std::vector<Work>& work) const;
+
  private:
   struct Level {
     SparseRows matrix;
     std::vector<double> inverse;  // per row, of the sum of its entries' sizes: eigenvalues up to one
     SparseRows up, down;          // from the next level here, and back
   };
-  std::vector<double> cycle(std::size_t level, std::vector<double> residual) const;
+  void cycle(std::size_t level, std::vector<Work>& work) const;
 
   std::vector<Level> levels_;
   std::optional<SymmetricSystem> coarsest_;

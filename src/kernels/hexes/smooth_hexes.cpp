@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "graph/parallel/parallel_map.h"
+#include "kernels/hexes/cell_states.h"
 #include "kernels/hexes/nearest_point.h"
 #include "kernels/quality/cell_shape.h"
 #include "kernels/quality/nearest_triangle.h"
@@ -14,22 +16,53 @@
 namespace strataflow {
 namespace {
 
+constexpr double warped_ratio = 0.05;  // of the mean edge: as bad as below_quality
+
+/// Of a cell, or the worst of several.
+struct CellQuality {
+  double jacobian = 1;  ///< scaled
+  double shape = 1;     ///< the same, less where a face is warped
+  void take(const CellQuality& other) {
+    jacobian = std::min(jacobian, other.jacobian);
+    shape = std::min(shape, other.shape);
+  }
+};
+
 class HexSmoother {
  public:
   HexSmoother(ExtrudedHexes& hexes, const LayeredSpace& space, const SmoothHexesOptions& options)
-      : mesh_(hexes.grid.mesh), hexes_(hexes), space_(space), options_(options) {}
+      : mesh_(hexes.grid.mesh),
+        hexes_(hexes),
+        space_(space),
+        options_(options),
+        edge_m_(mean_plan_edge_m(hexes.grid.plan)) {}
 
   HexSmoothing smooth() {
     find_cells_around();
     find_freedom();
     find_colours();
     quality_ = parallel_map(
-        mesh_.cell_count(), [&](std::size_t c) { return scaled_jacobian(corners(c)); }, 1024);
+        mesh_.cell_count(), [&](std::size_t c) { return quality_of(hex_corners(mesh_, c)); }, 1024);
     HexSmoothing result;
     result.min_before = worst();
+    result.warpage_before = most_warped();
+    for (const bool counts_warpage : {false, true}) {
+      counts_warpage_ = counts_warpage;
+      floor_ = std::max(options_.below_quality, worst());  // the grid's smallest does not fall for flatter faces
+      quality_ = parallel_map(
+          mesh_.cell_count(), [&](std::size_t c) { return quality_of(hex_corners(mesh_, c)); }, 1024);
+      sweep(result);
+    }
+    result.min_after = worst();
+    result.warpage_after = most_warped();
+    return result;
+  }
+
+ private:
+  void sweep(HexSmoothing& result) {
     // Only where cells changed can there be anything new to find.
     std::vector<char> is_waiting(mesh_.points.size(), 1);
-    for (; result.sweeps < options_.sweeps; ++result.sweeps) {
+    for (std::int64_t sweep = 0; sweep < options_.sweeps; ++sweep) {
       std::uint64_t moved = 0;
       for (const std::vector<std::uint32_t>& colour : colours_) {
         const std::vector<char> has_moved = parallel_map(
@@ -42,7 +75,7 @@ class HexSmoother {
               if (place == mesh_.points[v]) return 0;
               mesh_.points[v] = place;  // no other of this colour looks at it
               for (std::uint32_t k = first_[v]; k < first_[v + 1]; ++k)
-                quality_[corners_[k] / 8] = scaled_jacobian(corners(corners_[k] / 8));
+                quality_[corners_[k] / 8] = quality_of(hex_corners(mesh_, corners_[k] / 8));
               return 1;
             },
             64);
@@ -53,20 +86,19 @@ class HexSmoother {
             for (std::uint32_t c = 0; c < 8; ++c) is_waiting[mesh_.cell_vertices[corners_[k] / 8 * 8 + c]] = 1;
         }
       }
+      ++result.sweeps;
       result.moves += moved;
       if (moved == 0) break;
     }
-    result.min_after = worst();
-    return result;
   }
 
- private:
   bool has_volume(std::size_t cell) const { return is_full_[cell] != 0; }
 
-  std::array<Vec3, 8> corners(std::size_t cell) const {
-    std::array<Vec3, 8> p;
-    for (std::size_t k = 0; k < 8; ++k) p[k] = mesh_.points[mesh_.cell_vertices[8 * cell + k]];
-    return p;
+  CellQuality quality_of(const std::array<Vec3, 8>& corners) const {
+    const double jacobian = scaled_jacobian(corners);
+    if (!counts_warpage_) return {jacobian, jacobian};
+    const double warped = face_warpage_m(corners) / (warped_ratio * edge_m_);
+    return {jacobian, warped > 1 ? std::min(jacobian, options_.below_quality / warped) : jacobian};
   }
 
   void find_cells_around() {
@@ -79,7 +111,7 @@ class HexSmoother {
     is_full_ = parallel_map(
         mesh_.cell_count(),
         [&](std::size_t c) -> char {
-          const std::array<Vec3, 8> p = corners(c);
+          const std::array<Vec3, 8> p = hex_corners(mesh_, c);
           for (std::size_t k = 0; k < 4; ++k)
             if (!(length(p[4 + k] - p[k]) > 0)) return 0;
           return 1;
@@ -89,6 +121,7 @@ class HexSmoother {
 
   /// Per vertex: −2 fixed, −1 free, otherwise the entity it slides on.
   void find_freedom() {
+    constexpr double touching_ratio = 1e-6;  // of the mean edge: further off, a vertex is not on its horizon
     freedom_.assign(mesh_.points.size(), -1);
     std::vector<char> is_on_feature(hexes_.grid.plan.points.size(), 0);
     for (const FeatureEdge& edge : hexes_.grid.plan.edges) is_on_feature[edge.a] = is_on_feature[edge.b] = 1;
@@ -105,13 +138,20 @@ class HexSmoother {
       }
     }
     surfaces_.resize(space_.model.entities.size());
-    for (const std::int32_t freedom : freedom_) {
-      if (freedom < 0 || surfaces_[static_cast<std::size_t>(freedom)].nearest) continue;
-      Surface& surface = surfaces_[static_cast<std::size_t>(freedom)];
-      for (const SheetFacet& facet : space_.model.facets)
-        if (facet.entity == static_cast<std::uint32_t>(freedom) && facet.kind != SheetKind::fault)
-          surface.triangles.push_back(facet.vertices);
-      surface.nearest = std::make_unique<NearestTriangle>(TriangleMesh{space_.model.points, surface.triangles});
+    for (std::uint32_t v = 0; v < freedom_.size(); ++v) {
+      if (freedom_[v] < 0) continue;
+      Surface& surface = surfaces_[static_cast<std::size_t>(freedom_[v])];
+      if (!surface.nearest) {
+        for (const SheetFacet& facet : space_.model.facets)
+          if (facet.entity == static_cast<std::uint32_t>(freedom_[v]) && facet.kind != SheetKind::fault)
+            surface.triangles.push_back(facet.vertices);
+        surface.nearest = std::make_unique<NearestTriangle>(TriangleMesh{space_.model.points, surface.triangles});
+      }
+      if (surface.triangles.empty()) {  // a fault that the plan does not follow: stairs
+        freedom_[v] = -2;
+        continue;
+      }
+      if (length(held(v, mesh_.points[v]) - mesh_.points[v]) > touching_ratio * edge_m_) freedom_[v] = -1;
     }
   }
 
@@ -134,15 +174,18 @@ class HexSmoother {
     }
   }
 
-  /// The worst of the cells around with v at `place`; stops as soon as one is not above `enough`.
-  double quality_at(std::uint32_t v, const Vec3& place, double enough) const {
-    double least = 1;
-    for (std::uint32_t i = first_[v]; i < first_[v + 1] && least > enough; ++i) {
-      std::array<Vec3, 8> p = corners(corners_[i] / 8);
+  /// The worst of the cells around with v at `place`; stops as soon as it is not better than `than`, or the Jacobian
+  /// below `floor`: nothing then.
+  std::optional<CellQuality> better_at(std::uint32_t v, const Vec3& place, double than, double floor) const {
+    CellQuality least;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) {
+      std::array<Vec3, 8> p = hex_corners(mesh_, corners_[i] / 8);
       p[corners_[i] % 8] = place;
-      const double quality = scaled_jacobian(p);
-      if (!(quality > 0) && quality_[corners_[i] / 8] > 0) return -1;  // none is turned over for the sake of others
-      least = std::min(least, quality);
+      const CellQuality quality = quality_of(p);
+      // None is turned over for the sake of others.
+      if (!(quality.jacobian > 0) && quality_[corners_[i] / 8].jacobian > 0) return std::nullopt;
+      least.take(quality);
+      if (!(least.shape > than && least.jacobian >= floor)) return std::nullopt;
     }
     return least;
   }
@@ -157,9 +200,10 @@ class HexSmoother {
   /// The best of: some way to the mean of the neighbours, and a little along each edge.
   Vec3 better_place(std::uint32_t v) const {
     const Vec3 from = mesh_.points[v];
-    double best = 1;
-    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) best = std::min(best, quality_[corners_[i] / 8]);
-    if (best >= options_.below_quality) return from;
+    CellQuality best;
+    for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i) best.take(quality_[corners_[i] / 8]);
+    if (best.shape >= options_.below_quality) return from;
+    const double floor = std::min(best.jacobian, floor_);
     std::vector<std::uint32_t> ends;
     for (std::uint32_t i = first_[v]; i < first_[v + 1]; ++i)
       for (const CornerFrame& frame : shape_of(CellType::hexahedron).corners)
@@ -171,9 +215,9 @@ class HexSmoother {
     Vec3 place = from;
     const auto offer = [&](const Vec3& candidate) {
       const Vec3 at = held(v, candidate);
-      const double quality = quality_at(v, at, best + 1e-9);
-      if (!(quality > best + 1e-9)) return;
-      best = quality;
+      const std::optional<CellQuality> quality = better_at(v, at, best.shape + 1e-9, floor);
+      if (!quality) return;
+      best = *quality;
       place = at;
     };
     for (const double share : {1.0, 0.5, 0.25}) offer(from + share * (mean - from));
@@ -185,8 +229,15 @@ class HexSmoother {
   double worst() const {
     double least = quality_.empty() ? 0 : 1;
     for (std::size_t c = 0; c < quality_.size(); ++c)
-      if (has_volume(c)) least = std::min(least, quality_[c]);
+      if (has_volume(c)) least = std::min(least, quality_[c].jacobian);
     return least;
+  }
+
+  double most_warped() const {
+    double most = 0;
+    for (std::size_t c = 0; c < quality_.size(); ++c)
+      if (has_volume(c)) most = std::max(most, face_warpage_m(hex_corners(mesh_, c)));
+    return most / edge_m_;
   }
 
   struct Surface {
@@ -198,15 +249,29 @@ class HexSmoother {
   const ExtrudedHexes& hexes_;
   const LayeredSpace& space_;
   const SmoothHexesOptions& options_;
+  double edge_m_ = 1;
+  bool counts_warpage_ = false;
+  double floor_ = 0;
   std::vector<std::uint32_t> first_, corners_;  // per vertex: 8·cell + corner
   std::vector<char> is_full_;                   // per cell: no vertical edge without length
-  std::vector<double> quality_;                 // per cell: scaled Jacobian
+  std::vector<CellQuality> quality_;            // per cell
   std::vector<std::int32_t> freedom_;
-  std::vector<Surface> surfaces_;               // per entity
+  std::vector<Surface> surfaces_;  // per entity
   std::vector<std::vector<std::uint32_t>> colours_;
 };
 
 }  // namespace
+
+double face_warpage_m(const std::array<Vec3, 8>& corners) {
+  double most = 0;
+  for (const LocalFace& face : shape_of(CellType::hexahedron).faces) {
+    const Vec3 &a = corners[face[0]], &b = corners[face[1]], &c = corners[face[2]], &d = corners[face[3]];
+    const Vec3 n = cross(c - a, d - b);
+    // From the mean plane all four are equally far.
+    if (const double area = length(n); area > 0) most = std::max(most, std::abs(dot(n, a - b + c - d)) / (4 * area));
+  }
+  return most;
+}
 
 double scaled_jacobian(const std::array<Vec3, 8>& corners) {
   double least = std::numeric_limits<double>::infinity();

@@ -8,6 +8,7 @@
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/hexes/conjugate_gradients.h"
+#include "kernels/hexes/gather_entries.h"
 #include "kernels/hexes/level_ranges.h"
 #include "kernels/topology/union_find.h"
 #include "kernels/volumes/tet_faces.h"
@@ -31,7 +32,7 @@ struct LayerPlan {
 };
 
 Result<LayerPlan> plan_layers(const LabelledTets& tets, const StratigraphicLevels& levels,
-                                                     const LayerOptions& options) {
+                              const LayerOptions& options) {
   if (options.layers < 1) return bad_option("layers must be at least 1", "raise it");
   if (options.thickness_m && !(*options.thickness_m > 0 && std::isfinite(*options.thickness_m)))
     return bad_option("thickness_m must be positive", "raise it");
@@ -44,7 +45,8 @@ Result<LayerPlan> plan_layers(const LabelledTets& tets, const StratigraphicLevel
     if (std::find(levels.names.begin() + 1, levels.names.end(), unit) == levels.names.end())
       return bad_option("unit_layout names '" + unit + "', which is the roof of no unit", "name a horizon, or Top");
   std::vector<double> volume(levels.unit_count(), 0);
-  for (std::size_t t = 0; t < tets.tets.size(); ++t) volume[levels.unit[t]] += six_volumes(tets.points, tets.tets[t]) / 6;
+  for (std::size_t t = 0; t < tets.tets.size(); ++t)
+    volume[levels.unit[t]] += six_volumes(tets.points, tets.tets[t]) / 6;
   double area = 0;
   for (const SheetFacet& facet : tets.facets) {
     if (facet.kind != SheetKind::top) continue;
@@ -201,7 +203,8 @@ class FunctionSearch {
     }
     const std::vector<std::uint32_t> partner = face_partners(corners, result_.point.size(), is_closed);
     for (std::uint32_t i = 0; i < partner.size(); ++i)
-      if (partner[i] != no_index) result_.neighbour[4 * near[i / 4] + i % 4] = 4 * near[partner[i] / 4] + partner[i] % 4;
+      if (partner[i] != no_index)
+        result_.neighbour[4 * near[i / 4] + i % 4] = 4 * near[partner[i] / 4] + partner[i] % 4;
   }
 
   bool is_on_level(std::uint32_t face) const {
@@ -217,9 +220,7 @@ class FunctionSearch {
     for (std::uint32_t c = 0; c < unknown.size(); ++c)
       if (is_free_[c]) unknown[c] = count++;
     if (count == 0) return {};
-    std::vector<MatrixEntry> matrix;
-    std::vector<double> right(count, 0);
-    for (std::uint32_t t = 0; t < result_.model_tets; ++t) {
+    const auto visit_pairs = [&](std::size_t t, auto&& visit) {
       const Tet& tet = result_.tets[t];
       std::array<Vec3, 4> gradient;  // times the determinant
       const auto at = [&](std::size_t k) { return tets_.points[result_.point[tet[k]]]; };
@@ -229,15 +230,23 @@ class FunctionSearch {
       }
       const double determinant = dot(at(1) - at(0), cross(at(2) - at(0), at(3) - at(0)));
       for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t j = 0; j < 4; ++j) {
-          const std::uint32_t row = unknown[tet[i]], column = unknown[tet[j]];
-          if (row == no_index) continue;
-          const double value = dot(gradient[i], gradient[j]) / determinant;
-          if (column == no_index)
-            right[row] -= value * result_.w[tet[j]];
-          else if (row >= column)
-            matrix.push_back({row, column, value});
-        }
+        for (std::size_t j = 0; j < 4; ++j)
+          if (unknown[tet[i]] != no_index) visit(tet[i], tet[j], dot(gradient[i], gradient[j]) / determinant);
+    };
+    const std::vector<MatrixEntry> matrix =
+        gather_entries(result_.model_tets, [&](std::size_t t, std::vector<MatrixEntry>& entries) {
+          visit_pairs(t, [&](std::uint32_t i, std::uint32_t j, double value) {
+            if (unknown[j] != no_index && unknown[i] >= unknown[j]) entries.push_back({unknown[i], unknown[j], value});
+          });
+        });
+    std::vector<double> right(count, 0);
+    for (std::uint32_t t = 0; t < result_.model_tets; ++t) {
+      const auto free = std::count_if(result_.tets[t].begin(), result_.tets[t].end(),
+                                      [&](std::uint32_t c) { return is_free_[c] != 0; });
+      if (free == 0 || free == 4) continue;
+      visit_pairs(t, [&](std::uint32_t i, std::uint32_t j, double value) {
+        if (unknown[j] == no_index) right[unknown[i]] -= value * result_.w[j];
+      });
     }
     std::vector<double> start;
     for (std::uint32_t c = 0; c < unknown.size(); ++c)
@@ -267,7 +276,8 @@ class FunctionSearch {
       for (const std::uint32_t c : result_.tets[t]) unit[c] = levels_.unit[t];
     std::vector<char> is_outside(result_.point.size(), 0);
     for (std::uint32_t c = 0; c < is_outside.size(); ++c)
-      is_outside[c] = is_free_[c] && !(result_.w[c] > result_.level_w[unit[c]] && result_.w[c] < result_.level_w[unit[c] + 1]);
+      is_outside[c] =
+          is_free_[c] && !(result_.w[c] > result_.level_w[unit[c]] && result_.w[c] < result_.level_w[unit[c] + 1]);
     if (std::count(is_outside.begin(), is_outside.end(), 1) == 0) return;
     std::vector<std::array<std::uint32_t, 2>> edges;
     visit_edges([&](std::uint32_t a, std::uint32_t b) {

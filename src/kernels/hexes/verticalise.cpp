@@ -5,9 +5,11 @@
 #include <cmath>
 #include <limits>
 
+#include "graph/parallel/ordered_reduce.h"
 #include "graph/parallel/parallel_map.h"
 #include "kernels/adapters/cgal/exact_predicates.h"
 #include "kernels/hexes/conjugate_gradients.h"
+#include "kernels/hexes/gather_entries.h"
 #include "kernels/hexes/gravity_field.h"
 #include "kernels/hexes/untangle_plan.h"
 #include "kernels/hexes/upright_system.h"
@@ -44,27 +46,27 @@ LinearDeformation linear_deformation(const LabelledTets& tets, const UprightSyst
                                      const std::vector<TetGradients>& gradients) {
   LinearDeformation linear;
   for (auto& side : linear.right) side.assign(system.unknown_count, 0);
-  for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {
-    const TetGradients& tet = gradients[t];
+  const auto visit_rows = [&](std::size_t t, auto&& visit) {
     for (std::size_t i = 0; i < 4; ++i) {
       const std::uint32_t p = tets.tets[t][i];
-      for (std::uint32_t s = system.first[p]; s < system.first[p + 1]; ++s) {
-        const UprightSystem::Share& row = system.shares[s];
-        linear.right[0][row.unknown] += row.weight * tet.volume_m3 * tet.gradient[i].x;
-        linear.right[1][row.unknown] += row.weight * tet.volume_m3 * tet.gradient[i].y;
-        for (std::size_t j = 0; j < 4; ++j) {
-          const std::uint32_t q = tets.tets[t][j];
-          for (std::uint32_t r = system.first[q]; r < system.first[q + 1]; ++r) {
-            const UprightSystem::Share& column = system.shares[r];
-            if (column.unknown > row.unknown) continue;
-            linear.matrix.push_back(
-                {row.unknown, column.unknown,
-                 row.weight * column.weight * tet.volume_m3 * dot(tet.gradient[i], tet.gradient[j])});
-          }
-        }
-      }
+      for (std::uint32_t s = system.first[p]; s < system.first[p + 1]; ++s)
+        visit(system.shares[s], gradients[t].gradient[i], gradients[t].volume_m3);
     }
-  }
+  };
+  for (std::size_t t = 0; t < tets.tets.size(); ++t)
+    visit_rows(t, [&](const UprightSystem::Share& row, const Vec3& gradient, double volume_m3) {
+      linear.right[0][row.unknown] += row.weight * volume_m3 * gradient.x;
+      linear.right[1][row.unknown] += row.weight * volume_m3 * gradient.y;
+    });
+  linear.matrix = gather_entries(tets.tets.size(), [&](std::size_t t, std::vector<MatrixEntry>& entries) {
+    visit_rows(t, [&](const UprightSystem::Share& row, const Vec3& gradient, double volume_m3) {
+      visit_rows(t, [&](const UprightSystem::Share& column, const Vec3& other, double) {
+        if (column.unknown <= row.unknown)
+          entries.push_back(
+              {row.unknown, column.unknown, row.weight * column.weight * volume_m3 * dot(gradient, other)});
+      });
+    });
+  });
   return linear;
 }
 
@@ -122,24 +124,22 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
   LinearDeformation linear = linear_deformation(tets, system, gradients);
   // One unknown is pinned where it is: the matrix knows nothing of translations.
   const Vec3 pin = tets.points[system.point_of[0]];
-  std::vector<MatrixEntry> pinned;
-  pinned.reserve(linear.matrix.size());
   double scale = 0;
-  for (const MatrixEntry& entry : linear.matrix) {
-    if (entry.row == 0 && entry.column == 0) scale += entry.value;
-    if (entry.column != 0) {
-      pinned.push_back(entry);
-    } else if (entry.row != 0) {
+  std::erase_if(linear.matrix, [&](const MatrixEntry& entry) {
+    if (entry.column != 0) return false;
+    if (entry.row == 0) {
+      scale += entry.value;
+    } else {
       linear.right[0][entry.row] -= entry.value * pin.x;
       linear.right[1][entry.row] -= entry.value * pin.y;
     }
-  }
-  pinned.push_back({0, 0, scale});
+    return true;
+  });
+  linear.matrix.push_back({0, 0, scale});
   linear.right[0][0] = scale * pin.x;
   linear.right[1][0] = scale * pin.y;
+  const Multigrid guide(symmetric_rows(system.unknown_count, linear.matrix), constant_mode(system.unknown_count));
   linear.matrix = {};
-  const Multigrid guide(symmetric_rows(system.unknown_count, pinned), constant_mode(system.unknown_count));
-  pinned = {};
   std::vector<double> u, v;
   for (const std::uint32_t p : system.point_of) {
     u.push_back(tets.points[p].x);
@@ -176,15 +176,17 @@ Result<UprightPlan> verticalise(const LabelledTets& tets, const VerticaliseOptio
     }
     upright.left_turned_over = static_cast<std::uint32_t>(over.size());
   }
-  upright.smallest_determinant = std::numeric_limits<double>::infinity();
-  for (std::uint32_t t = 0; t < tets.tets.size(); ++t) {
-    Vec3 du, dv;
-    for (std::size_t k = 0; k < 4; ++k) {
-      du = du + upright.plan[tets.tets[t][k]].x * gradients[t].gradient[k];
-      dv = dv + upright.plan[tets.tets[t][k]].y * gradients[t].gradient[k];
-    }
-    upright.smallest_determinant = std::min(upright.smallest_determinant, du.x * dv.y - du.y * dv.x);
-  }
+  upright.smallest_determinant = ordered_reduce(
+      tets.tets.size(), std::numeric_limits<double>::infinity(),
+      [&](std::size_t t) {
+        Vec3 du, dv;
+        for (std::size_t k = 0; k < 4; ++k) {
+          du = du + upright.plan[tets.tets[t][k]].x * gradients[t].gradient[k];
+          dv = dv + upright.plan[tets.tets[t][k]].y * gradients[t].gradient[k];
+        }
+        return du.x * dv.y - du.y * dv.x;
+      },
+      [](double a, double b) { return std::min(a, b); });
   return upright;
 }
 

@@ -55,7 +55,7 @@ Result<MergedRegions> merge_micro_regions(const TriangleSoup& soup, const MicroR
     const Result<BuiltModel> built = build_structural_model(result.soup);
     if (!built) return built.failure();
     const StructuralModel& model = built->model;
-    // Every region that is small now and does not touch one already being merged in this turn.
+    // Every region that is small now; several may join the same one in a turn, but none that is itself joining another.
     std::vector<std::uint32_t> small;
     std::vector<double> frontier_area(model.regions.size(), 0);
     double whole = 0;
@@ -72,16 +72,16 @@ Result<MergedRegions> merge_micro_regions(const TriangleSoup& soup, const MicroR
     std::sort(small.begin(), small.end(), [&](std::uint32_t a, std::uint32_t b) {
       return std::pair(model.regions[a].volume_m3, a) < std::pair(model.regions[b].volume_m3, b);
     });
-    std::vector<char> is_taken(model.regions.size(), 0);
+    std::vector<char> goes(model.regions.size(), 0), grows(model.regions.size(), 0);
     std::vector<std::uint32_t> doomed;
     for (const std::uint32_t r : small) {
-      if (is_taken[r]) continue;
+      if (grows[r]) continue;
       const std::uint32_t s = choose_surface(model, r);
       if (s == no_index) continue;
       const Surface& surface = model.surfaces[s];
       const std::uint32_t other = surface.region_plus == r ? surface.region_minus : surface.region_plus;
-      if (is_taken[other]) continue;
-      is_taken[r] = is_taken[other] = 1;
+      if (goes[other]) continue;
+      goes[r] = grows[other] = 1;
       doomed.push_back(s);
       result.changes.push_back({"merged_micro_region",
                                 "a region of " + OptionPrinter::literal(model.regions[r].volume_m3) + " m3 beside '" +

@@ -51,9 +51,10 @@ TEST(ExtrudeHexes, lets_horizons_jump_at_a_vertical_fault_and_meets_both_sides) 
   support::expect_conforming(hexes.grid.mesh);
   expect_surfaces_met(space, hexes);
   EXPECT_NEAR(support::volume_m3(hexes) / (1600.0 * 1200 * 400), 1, 1e-9);
-  const std::size_t edges_on_fault = static_cast<std::size_t>(
-      std::count_if(plan.edges.begin(), plan.edges.end(),
-                    [&](const FeatureEdge& e) { return plan.features[e.feature].name == "F1"; }));
+  const std::size_t edges_on_fault =
+      static_cast<std::size_t>(std::count_if(plan.edges.begin(), plan.edges.end(), [&](const FeatureEdge& e) {
+        return plan.features[e.feature].name == "F1";
+      }));
   EXPECT_EQ(facet_count(hexes.grid.mesh, "F1"), 2 * 8 * edges_on_fault);  // both sides, every layer
   EXPECT_EQ(hexes.report.unreached, 0u);
   // The horizons of both sides are 30 m apart on the fault.
@@ -112,9 +113,10 @@ TEST(ExtrudeHexes, keeps_cells_without_volume_beside_an_erosion) {
   support::expect_conforming(hexes.grid.mesh);
   // Whole quads beyond the line where E cuts a horizon off lie on E; quads across that line reach past it.
   for (const char* name : {"H1", "H4", "E", "Top", "Bottom"}) {
-    const auto entity = static_cast<std::uint32_t>(
-        std::find_if(space.model.entities.begin(), space.model.entities.end(),
-                     [&](const Entity& e) { return e.name == name; }) - space.model.entities.begin());
+    const auto entity =
+        static_cast<std::uint32_t>(std::find_if(space.model.entities.begin(), space.model.entities.end(),
+                                                [&](const Entity& e) { return e.name == name; }) -
+                                   space.model.entities.begin());
     EXPECT_LE(support::furthest_from_entity_m(hexes.grid.mesh, space.model, entity), 1e-6) << name;
   }
   for (const std::uint32_t entity : {1u, 2u})
@@ -184,7 +186,8 @@ TEST(ExtrudeHexes, gives_every_region_its_volume) {
   for (std::size_t t = 0; t < space.model.tets.size(); ++t) {
     const Tet& v = space.model.tets[t];
     const std::vector<Vec3>& p = space.model.points;
-    of_model[static_cast<std::size_t>(space.model.region[t])] += support::six_volumes(p[v[0]], p[v[1]], p[v[2]], p[v[3]]) / 6;
+    of_model[static_cast<std::size_t>(space.model.region[t])] +=
+        support::six_volumes(p[v[0]], p[v[1]], p[v[2]], p[v[3]]) / 6;
   }
   for (std::size_t c = 0; c < hexes.grid.mesh.cell_count(); ++c)
     of_hexes[static_cast<std::size_t>(hexes.grid.mesh.cell_region[c])] +=
@@ -211,7 +214,8 @@ TEST(ExtrudeHexes, lays_layers_parallel_to_the_roof_or_the_floor_of_their_unit) 
   const VolumeMesh mesh = support::filled(*columns, 80);
   const QuadMesh plan = support::plan_of(*columns, 80);
   for (const LayerLayout layout : {LayerLayout::parallel_to_top, LayerLayout::parallel_to_base}) {
-    LayerOptions layers{4, {{"H1", 4}, {"H2", 4}, {"H3", 4}, {"Top", 4}}, 12.0, LayerLayout::proportional, {{"H2", layout}}};
+    LayerOptions layers{
+        4, {{"H1", 4}, {"H2", 4}, {"H3", 4}, {"Top", 4}}, 12.0, LayerLayout::proportional, {{"H2", layout}}};
     const LayeredSpace space = support::upright(mesh, layers);
     const ExtrudedHexes hexes = extruded(space, plan);
     EXPECT_EQ(hexes.report.squeezed, 0u);
@@ -315,6 +319,64 @@ TEST(ExtrudeHexes, is_the_same_on_every_schedule) {
     EXPECT_EQ(hexes.grid.mesh.points, expected.grid.mesh.points) << schedule;
     EXPECT_EQ(hexes.grid.mesh.cell_vertices, expected.grid.mesh.cell_vertices) << schedule;
   });
+}
+
+/// A model whose faults lean and need not be followed, with a plan that does not know of them.
+struct Unfollowed {
+  LayeredSpace space;
+  QuadMesh plan;
+};
+Unfollowed unfollowed_listric() {
+  const auto columns = listric_fault();
+  Unfollowed made;
+  Result<UprightModel> model = take_model(support::filled(*columns, 100), {"F1"});
+  EXPECT_TRUE(model) << describe(model.failure());
+  Result<LayeredSpace> space = build_layered_space(*std::move(model), {3, {}, {}});
+  EXPECT_TRUE(space) << describe(space.failure());
+  made.space = *std::move(space);
+  made.plan = support::plan_of(*columns, 100, 200);
+  std::erase_if(made.plan.edges,
+                [&](const FeatureEdge& e) { return made.plan.features[e.feature].role == Role::fault; });
+  return made;
+}
+
+TEST(ExtrudeHexes, bridges_the_levels_that_a_fault_which_is_not_followed_leaps_over) {
+  const Unfollowed made = unfollowed_listric();
+  const Result<ExtrudedHexes> hexes = extrude_hexes(made.space, made.plan);
+  ASSERT_TRUE(hexes) << describe(hexes.failure());
+  support::expect_no_inverted_cell(*hexes);
+  EXPECT_EQ(hexes->report.dead + hexes->report.degenerate, 0u);
+  EXPECT_GT(hexes->report.bridged, 20u);
+  EXPECT_GT(hexes->report.largest_bridged_m, 1);
+  EXPECT_LT(hexes->report.largest_bridged_m, 125);  // a unit
+  // Further from the fault than it displaces, horizons are where they were.
+  const LabelledTets& model = made.space.model;
+  std::vector<Triangle> fault;
+  for (const SheetFacet& facet : model.facets)
+    if (facet.kind == SheetKind::fault) fault.push_back(facet.vertices);
+  const NearestTriangle nearest_fault(TriangleMesh{model.points, fault});
+  std::size_t away = 0;
+  for (const MeshFacet& facet : hexes->grid.mesh.facets) {
+    if (model.entities[facet.surface].role != Role::horizon) continue;
+    const NearestTriangle nearest(TriangleMesh{model.points, support::triangles_of(model, facet.surface)});
+    for (const std::uint32_t v : facet.vertices) {
+      const Vec3& p = hexes->grid.mesh.points[v];
+      if (nearest_fault.nearest(p).squared_m2 < 50 * 50) continue;
+      EXPECT_LT(nearest.nearest(p).squared_m2, 1e-18);
+      ++away;
+    }
+  }
+  EXPECT_GT(away, 100u);
+}
+
+TEST(ExtrudeHexes, bridges_the_same_on_every_schedule) {
+  const Unfollowed made = unfollowed_listric();
+  const std::vector<Vec3> expected = extrude_hexes(made.space, made.plan)->grid.mesh.points;
+  support::on_every_schedule(
+      [&](const char* schedule) {
+        EXPECT_EQ(extrude_hexes(made.space, made.plan)->grid.mesh.points, expected) << schedule;
+      },
+      2);
 }
 
 TEST(ExtrudeHexes, refuses_plans_that_leave_the_model) {

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "kernels/hexes/conjugate_gradients.h"
+#include "kernels/hexes/gather_entries.h"
 #include "support/schedules.h"
 
 namespace strataflow {
@@ -16,9 +17,7 @@ std::vector<MatrixEntry> cube(std::uint32_t n, double wide = 1) {
   std::vector<MatrixEntry> lower;
   for (std::uint32_t i = 0; i < n * n * n; ++i) {
     lower.push_back({i, i, 1e-6});
-    const auto join = [&](std::uint32_t j, double k) {
-      lower.insert(lower.end(), {{i, i, k}, {j, j, k}, {i, j, -k}});
-    };
+    const auto join = [&](std::uint32_t j, double k) { lower.insert(lower.end(), {{i, i, k}, {j, j, k}, {i, j, -k}}); };
     if (i % n > 0) join(i - 1, 1);
     if (i / n % n > 0) join(i - n, 1);
     if (i >= n * n) join(i - n * n, wide);
@@ -37,10 +36,29 @@ std::vector<double> uneven(std::size_t size, std::size_t prime) {
 }
 
 TEST(SymmetricRows, sum_up_what_is_given_at_one_place) {
-  const SparseRows rows = symmetric_rows(3, {{0, 0, 1}, {0, 0, 1}, {1, 1, 1}, {1, 0, -1}, {1, 1, 1}, {2, 2, 1}, {2, 1, -1}});
+  const SparseRows rows =
+      symmetric_rows(3, {{0, 0, 1}, {0, 0, 1}, {1, 1, 1}, {1, 0, -1}, {1, 1, 1}, {2, 2, 1}, {2, 1, -1}});
   EXPECT_EQ(rows.first, (std::vector<std::uint32_t>{0, 2, 5, 7}));
   EXPECT_EQ(rows.columns, (std::vector<std::uint32_t>{0, 1, 0, 1, 2, 1, 2}));
   EXPECT_EQ(rows.values, (std::vector<double>{2, -1, -1, 2, -1, -1, 1}));
+}
+
+TEST(SymmetricRows, of_many_bands_sum_each_place_in_the_order_given) {
+  // 1 − 1 + 2⁻⁶⁰ + 2⁻⁶⁰ in this order alone keeps the small ones.
+  constexpr std::uint32_t size = 70000;
+  const std::vector<MatrixEntry> lower = gather_entries(size, [](std::size_t i, std::vector<MatrixEntry>& entries) {
+    const auto row = static_cast<std::uint32_t>(i);
+    for (const double value : {1.0, -1.0, 0x1p-60, 0x1p-60}) entries.push_back({row, row / 2, value});
+  });
+  ASSERT_EQ(lower.size(), 4u * size);
+  for (std::uint32_t e = 0; e < lower.size(); ++e) ASSERT_EQ(lower[e].row, e / 4);
+  support::on_every_schedule([&](const char* schedule) {
+    const SparseRows rows = symmetric_rows(size, lower);
+    ASSERT_EQ(rows.columns.size(), 2u * size - 1) << schedule;
+    for (const std::uint32_t row : {2u, 5u, 34999u, 35000u, size - 1})
+      EXPECT_EQ(rows.columns[rows.first[row]], row / 2) << schedule;
+    for (const double value : rows.values) ASSERT_EQ(value, 0x1p-59) << schedule;
+  });
 }
 
 TEST(Multigrid, is_the_inverse_of_a_small_matrix) {

@@ -42,6 +42,25 @@ TEST(SmoothHexes, raises_the_worst_cell_and_keeps_horizons_faults_and_sides) {
   support::expect_no_inverted_cell(model.hexes);
 }
 
+TEST(SmoothHexes, leaves_faults_alone_that_the_plan_does_not_follow) {
+  Jittered model = jittered();
+  QuadMesh& plan = model.hexes.grid.plan;
+  std::erase_if(plan.edges, [&](const FeatureEdge& edge) { return plan.features[edge.feature].role == Role::fault; });
+  const VolumeMesh before = model.hexes.grid.mesh;
+  const Result<HexSmoothing> smoothed = smooth_hexes(model.hexes, model.space, {10, 0.95});
+  ASSERT_TRUE(smoothed);
+  EXPECT_GT(smoothed->moves, 100u);
+  std::size_t on_faults = 0;
+  for (const MeshFacet& facet : before.facets)
+    if (model.space.model.entities[static_cast<std::size_t>(facet.surface)].role == Role::fault)
+      for (const std::uint32_t v : facet.vertices)
+        if (v != no_index) {
+          ++on_faults;
+          EXPECT_EQ(model.hexes.grid.mesh.points[v], before.points[v]);
+        }
+  EXPECT_GT(on_faults, 20u);
+}
+
 TEST(SmoothHexes, leaves_cells_alone_that_are_good_enough) {
   Jittered model = jittered();
   const std::vector<Vec3> before = model.hexes.grid.mesh.points;
@@ -49,6 +68,35 @@ TEST(SmoothHexes, leaves_cells_alone_that_are_good_enough) {
   ASSERT_TRUE(smoothed);
   EXPECT_EQ(smoothed->moves, 0u);
   EXPECT_EQ(model.hexes.grid.mesh.points, before);
+}
+
+TEST(SmoothHexes, flattens_warped_faces_and_lets_no_good_cell_fall_below_the_mark) {
+  const auto columns = vertical_faults(1, false);
+  Jittered model{support::upright(support::filled(*columns, 120), {2, {}, {}}), {}};
+  model.hexes = *extrude_hexes(model.space, support::plan_of(*columns, 100));
+  HexGrid& grid = model.hexes.grid;
+  std::size_t moved = 0;
+  for (std::size_t c = 0; c < grid.mesh.cell_count(); ++c) {
+    const std::uint32_t v = grid.mesh.cell_vertices[8 * c + 4];  // inside a unit, over an inner point of the plan
+    const Vec3 p = grid.mesh.points[v];
+    if (grid.cell_layer[c] != 2 || std::abs(p.x - 1100) > 60 || std::abs(p.y - 600) > 60) continue;
+    grid.mesh.points[v].x += 30;
+    ++moved;
+  }
+  ASSERT_GE(moved, 1u);
+  const Result<HexSmoothing> smoothed = smooth_hexes(model.hexes, model.space, {10, 0.6});
+  ASSERT_TRUE(smoothed);
+  EXPECT_GT(smoothed->warpage_before, 0.06);
+  EXPECT_LE(smoothed->warpage_after, 0.05);
+  EXPECT_GE(smoothed->min_after, std::min(smoothed->min_before, 0.6));
+}
+
+TEST(SmoothHexes, measures_how_far_a_face_is_warped) {
+  std::array<Vec3, 8> cube{Vec3{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  EXPECT_EQ(face_warpage_m(cube), 0);
+  cube[4].z += 0.2;
+  cube[6].z += 0.2;
+  EXPECT_NEAR(face_warpage_m(cube), 0.1, 1e-15);
 }
 
 TEST(SmoothHexes, measures_a_cube_and_its_mirror_image) {

@@ -21,7 +21,7 @@ TEST_F(TetLocation, finds_the_tetrahedron_around_a_point_and_lifts_it_to_its_lay
   const Vec3 lifted = locator_.lifted(place.tet, p);
   EXPECT_NEAR(lifted.x, 700, 1e-9);
   EXPECT_NEAR(lifted.y, 555, 1e-9);
-  EXPECT_GT(lifted.z, 90);   // between H1 and H2
+  EXPECT_GT(lifted.z, 90);  // between H1 and H2
   EXPECT_LT(lifted.z, 215);
 }
 
@@ -52,6 +52,15 @@ TEST_F(TetLocation, comes_back_to_the_border_at_the_same_level) {
     EXPECT_EQ(nearest.at.z, p.z);
   }
   EXPECT_NEAR(least, 30, 1e-9);
+}
+
+TEST_F(TetLocation, by_heights_lifts_a_point_to_its_height) {
+  const TetLocator heights = TetLocator::of_heights(space_);
+  const Vec3 p = heights.at({700, 555, 0}, 123);
+  const TetLocator::Place place = heights.locate(p, 100);
+  ASSERT_NE(place.tet, no_index);
+  EXPECT_LT(place.tet, space_.layers.model_tets);
+  EXPECT_LT(length(heights.lifted(place.tet, p) - Vec3{700, 555, 123}), 1e-9);
 }
 
 }  // namespace

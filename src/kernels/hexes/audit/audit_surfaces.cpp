@@ -40,36 +40,62 @@ std::vector<char> vertices_on_traces(const HexGrid& grid) {
   return is_on;
 }
 
-/// Edges of one facet alone, no other surface touching: where faults die. Ascending by entity.
-struct DyingEdge {
+struct SurfaceEdge {
   std::uint32_t entity = 0, a = 0, b = 0;
 };
-std::vector<DyingEdge> dying_edges(const LabelledTets& model) {
-  std::vector<DyingEdge> uses;
+
+/// Edges of one facet alone, no other surface touching that is followed: where faults die. Ascending by entity.
+std::vector<SurfaceEdge> dying_edges(const LabelledTets& model) {
+  std::vector<SurfaceEdge> uses;
   for (const SheetFacet& facet : model.facets)
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3 && facet.is_aligned != 0; ++k) {
       const std::uint32_t a = facet.vertices[k], b = facet.vertices[(k + 1) % 3];
       uses.push_back({facet.entity, std::min(a, b), std::max(a, b)});
     }
-  std::sort(uses.begin(), uses.end(), [](const DyingEdge& x, const DyingEdge& y) {
+  std::sort(uses.begin(), uses.end(), [](const SurfaceEdge& x, const SurfaceEdge& y) {
     return std::array{x.a, x.b, x.entity} < std::array{y.a, y.b, y.entity};
   });
-  std::vector<DyingEdge> dying;
+  std::vector<SurfaceEdge> dying;
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const auto same = [&](std::size_t j) { return uses[j].a == uses[i].a && uses[j].b == uses[i].b; };
     if (!(i > 0 && same(i - 1)) && !(i + 1 < uses.size() && same(i + 1))) dying.push_back(uses[i]);
   }
   std::stable_sort(dying.begin(), dying.end(),
-                   [](const DyingEdge& x, const DyingEdge& y) { return x.entity < y.entity; });
+                   [](const SurfaceEdge& x, const SurfaceEdge& y) { return x.entity < y.entity; });
   return dying;
 }
 
-/// Whether a point of a surface lies on one of its dying edges.
-bool is_on_dying_edge(const LabelledTets& model, const std::vector<DyingEdge>& dying, std::uint32_t entity,
-                      const Vec3& p, double tolerance_m) {
-  const auto first = std::lower_bound(dying.begin(), dying.end(), entity,
-                                      [](const DyingEdge& e, std::uint32_t wanted) { return e.entity < wanted; });
-  for (auto edge = first; edge != dying.end() && edge->entity == entity; ++edge) {
+/// Edges of levels at faults that need not be followed. Ascending by entity.
+std::vector<SurfaceEdge> edges_at_dropped(const LabelledTets& model) {
+  std::vector<std::array<std::uint32_t, 2>> dropped;
+  const auto visit_edges = [&](const auto& is_wanted, const auto& visit) {
+    for (const SheetFacet& facet : model.facets)
+      for (std::size_t k = 0; k < 3 && is_wanted(facet); ++k)
+        visit(facet.entity, std::min(facet.vertices[k], facet.vertices[(k + 1) % 3]),
+              std::max(facet.vertices[k], facet.vertices[(k + 1) % 3]));
+  };
+  visit_edges([](const SheetFacet& facet) { return facet.kind == SheetKind::fault && facet.is_aligned == 0; },
+              [&](std::uint32_t, std::uint32_t a, std::uint32_t b) {
+                dropped.push_back({a, b});
+              });
+  dropped = sorted_unique(std::move(dropped));
+  std::vector<SurfaceEdge> edges;
+  visit_edges([](const SheetFacet& facet) { return is_level(facet.kind); },
+              [&](std::uint32_t entity, std::uint32_t a, std::uint32_t b) {
+                if (std::binary_search(dropped.begin(), dropped.end(), std::array{a, b}))
+                  edges.push_back({entity, a, b});
+              });
+  std::stable_sort(edges.begin(), edges.end(),
+                   [](const SurfaceEdge& x, const SurfaceEdge& y) { return x.entity < y.entity; });
+  return edges;
+}
+
+/// Whether a point of a surface lies on one of these of its edges.
+bool is_on_edge(const LabelledTets& model, const std::vector<SurfaceEdge>& edges, std::uint32_t entity, const Vec3& p,
+                double tolerance_m) {
+  const auto first = std::lower_bound(edges.begin(), edges.end(), entity,
+                                      [](const SurfaceEdge& e, std::uint32_t wanted) { return e.entity < wanted; });
+  for (auto edge = first; edge != edges.end() && edge->entity == entity; ++edge) {
     const Vec3 &a = model.points[edge->a], along = model.points[edge->b] - a;
     if (length(p - a - std::clamp(dot(p - a, along) / dot(along, along), 0.0, 1.0) * along) <= tolerance_m) return true;
   }
@@ -96,15 +122,18 @@ std::vector<SurfaceAudit> audit_surfaces(const HexGrid& grid, const LiveCells& l
   std::vector<std::optional<SheetKind>> kind(model.entities.size());
   std::vector<double> area(model.entities.size(), 0);
   std::vector<char> is_followed(model.entities.size(), 1);
-  std::vector<Triangle> level_triangles;
+  std::vector<Triangle> level_triangles, dropped_triangles;
   for (const SheetFacet& facet : model.facets) {
     triangles[facet.entity].push_back(facet.vertices);
     if (!kind[facet.entity]) kind[facet.entity] = facet.kind;
     area[facet.entity] += area_m2(model, facet, is_level(facet.kind));
-    if (facet.kind == SheetKind::fault && facet.is_aligned == 0) is_followed[facet.entity] = 0;
+    if (facet.kind == SheetKind::fault && facet.is_aligned == 0) {
+      is_followed[facet.entity] = 0;
+      dropped_triangles.push_back(facet.vertices);
+    }
     if (is_level(facet.kind)) level_triangles.push_back(facet.vertices);
   }
-  const std::vector<DyingEdge> dying = dying_edges(model);
+  const std::vector<SurfaceEdge> dying = dying_edges(model), at_dropped = edges_at_dropped(model);
   Box3 box;
   for (const Vec3& p : model.points) box.take(p);
   std::vector<std::vector<std::uint32_t>> facets(model.entities.size());
@@ -120,6 +149,8 @@ std::vector<SurfaceAudit> audit_surfaces(const HexGrid& grid, const LiveCells& l
     live_area[e] += (is_one_of_two ? 0.5 : 1.0) * (kind[e] && is_level(*kind[e]) ? std::abs(n.z) : length(n));
   }
   const NearestTriangle nearest_level(TriangleMesh{model.points, level_triangles});
+  const NearestTriangle nearest_dropped(TriangleMesh{model.points, dropped_triangles});
+  const double near_dropped_m = 0.5 * mean_plan_edge_m(grid.plan);
   std::vector<SurfaceAudit> audits;
   for (std::uint32_t e = 0; e < model.entities.size(); ++e) {
     if (triangles[e].empty() && facets[e].empty()) continue;
@@ -147,7 +178,7 @@ std::vector<SurfaceAudit> audit_surfaces(const HexGrid& grid, const LiveCells& l
     audit.vertices = vertices.size();
     struct Away {
       double m = 0;
-      bool is_beyond = false;
+      bool is_beyond = false, is_bridged = false;
     };
     const std::vector<Away> away = parallel_map(
         vertices.size(),
@@ -155,19 +186,23 @@ std::vector<SurfaceAudit> audit_surfaces(const HexGrid& grid, const LiveCells& l
           const Vec3& p = mesh.points[vertices[i]];
           const bool is_at_level = from_above && is_closed[vertices[i]];
           const NearestTriangle::Hit hit = (is_at_level ? nearest_level : nearest).nearest(p);
-          Away one{std::sqrt(hit.squared_m2), false};
-          if (from_above || hit.triangle == no_index || !(one.m > 1e-9 * box.diagonal_m())) return one;
+          Away one{std::sqrt(hit.squared_m2)};
+          if (is_at_level || hit.triangle == no_index || !(one.m > 1e-9 * box.diagonal_m())) return one;
           const auto& [a, b, c] = triangles[e][hit.triangle];
           const Vec3 at = nearest_point(p, model.points[a], model.points[b], model.points[c]);
-          one.is_beyond = is_on_dying_edge(model, dying, e, at, 1e-9 * box.diagonal_m());
+          (from_above ? one.is_bridged : one.is_beyond) =
+              is_on_edge(model, from_above ? at_dropped : dying, e, at, 1e-9 * box.diagonal_m()) ||
+              (from_above && nearest_dropped.nearest(p).squared_m2 <= near_dropped_m * near_dropped_m);
           return one;
         },
         64);
     double sum = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const bool is_apart = (from_above && (is_closed[vertices[i]] || is_trace[vertices[i]])) || away[i].is_beyond;
+      const bool is_apart =
+          (from_above && (is_closed[vertices[i]] || is_trace[vertices[i]])) || away[i].is_beyond || away[i].is_bridged;
       double& furthest = away[i].is_beyond                      ? audit.furthest_beyond_m
+                         : away[i].is_bridged                   ? audit.furthest_bridged_m
                          : from_above && is_closed[vertices[i]] ? audit.furthest_closed_m
                          : from_above && is_trace[vertices[i]]  ? audit.furthest_on_traces_m
                                                                 : audit.furthest_m;
@@ -205,7 +240,7 @@ std::vector<RegionVolumeAudit> audit_regions(const HexGrid& grid, const Labelled
   for (std::size_t c = 0; c < volumes.size(); ++c)
     if (RegionVolumeAudit* audit = of(grid.mesh.cell_region[c])) audit->grid_m3 += volumes[c];
   std::vector<char> is_dying(model.entities.size(), 0);
-  for (const DyingEdge& edge : dying_edges(model)) is_dying[edge.entity] = 1;
+  for (const SurfaceEdge& edge : dying_edges(model)) is_dying[edge.entity] = 1;
   for (const std::int32_t zone : grid.mesh.cell_entity)  // volumetric faults take from both sides
     if (zone >= 0 && static_cast<std::size_t>(zone) < is_dying.size()) is_dying[static_cast<std::size_t>(zone)] = 1;
   for (std::uint32_t face = 0; face < model.facet_of.size(); ++face) {

@@ -13,7 +13,9 @@ namespace strataflow {
 // and for the store.
 
 /// How near the facets on one surface of the model come to it. Vertices over fault traces count apart (there weak
-/// verticality bends the plan), and so do those where a layer has closed (there levels lie on what cuts them off).
+/// verticality bends the plan), those where a layer has closed (there levels lie on what cuts them off), and those past
+/// the end of a horizon at a fault that need not be followed, or within half an edge of such a fault (there levels
+/// bridge a gap).
 struct SurfaceAudit {
   std::string name;
   std::string role;
@@ -23,6 +25,7 @@ struct SurfaceAudit {
   double mean_m = 0;                ///< of the same
   double furthest_on_traces_m = 0;  ///< horizons: vertices over fault traces
   double furthest_closed_m = 0;     ///< where a layer has closed: from the nearest horizon, top or bottom
+  double furthest_bridged_m = 0;    ///< horizons: vertices at faults that need not be followed
   double furthest_beyond_m = 0;     ///< faults: vertices past a border where the fault dies (steps end beyond it)
   double furthest_centre_m = 0;     ///< middles of facets
   double model_area_m2 = 0, grid_area_m2 = 0;  ///< horizons: seen from above; sides that match count once
@@ -37,6 +40,7 @@ struct SurfaceAudit {
     visit("mean_m", mean_m);
     visit("furthest_on_traces_m", furthest_on_traces_m);
     visit("furthest_closed_m", furthest_closed_m);
+    visit("furthest_bridged_m", furthest_bridged_m);
     visit("furthest_beyond_m", furthest_beyond_m);
     visit("furthest_centre_m", furthest_centre_m);
     visit("model_area_m2", model_area_m2);

@@ -6,11 +6,11 @@
 
 #include "graph/parallel/parallel_map.h"
 #include "kernels/hexes/baselines/plan_frame.h"
-#include "kernels/hexes/baselines/plumb_line.h"
 #include "kernels/hexes/cell_states.h"
 #include "kernels/hexes/extrusion/fault_surface.h"
 #include "kernels/hexes/extrusion/make_hex_facets.h"
 #include "kernels/hexes/extrusion/plan_edges.h"
+#include "kernels/hexes/extrusion/plumb_line.h"
 
 namespace strataflow {
 namespace {
@@ -21,11 +21,11 @@ constexpr double corner_shift_x = 1e-9, corner_shift_y = 0.7e-9;
 
 /// A column of cells as its own fault block sees it.
 struct Column {
-  std::vector<double> middle_z;                     ///< per level
-  std::vector<std::array<double, 4>> corner_z;      ///< per level
-  std::vector<std::array<char, 4>> is_seen;         ///< per level: no fault between the middle and the corner
-  std::vector<std::uint32_t> fault_at;              ///< per level: the fault it has leapt over, or no_index
-  std::vector<std::int32_t> region;                 ///< per layer
+  std::vector<double> middle_z;                 ///< per level
+  std::vector<std::array<double, 4>> corner_z;  ///< per level
+  std::vector<std::array<char, 4>> is_seen;     ///< per level: no fault between the middle and the corner
+  std::vector<std::uint32_t> fault_at;          ///< per level: the fault it has leapt over, or no_index
+  std::vector<std::int32_t> region;             ///< per layer
 };
 
 /// The points over one point of the plan, and which of them each column around it has at each level.
@@ -37,7 +37,11 @@ struct Pillar {
 class StairStep {
  public:
   StairStep(const LayeredSpace& space, double edge_m)
-      : space_(space), model_(space.model), layers_(space.layers.layer_count()), edge_m_(edge_m), lines_(space) {
+      : space_(space),
+        model_(space.model),
+        layers_(space.layers.layer_count()),
+        edge_m_(edge_m),
+        lines_(space, space.model.points) {
     for (std::uint32_t e = 0; e < model_.entities.size(); ++e)
       if (std::any_of(model_.facets.begin(), model_.facets.end(), [&](const SheetFacet& facet) {
             return facet.entity == e && facet.kind == SheetKind::fault && facet.is_aligned != 0;
@@ -49,7 +53,8 @@ class StairStep {
 
   Result<ExtrudedHexes> build() {
     if (const Result<void> made = make_plan(); !made) return made.failure();
-    columns_ = parallel_map(grid_.plan.quads.size(), [&](std::size_t q) { return column(q); }, 8);
+    columns_ = parallel_map(
+        grid_.plan.quads.size(), [&](std::size_t q) { return column(q); }, 8);
     if (const Result<void> found = find_fault_faces(); !found) return found.failure();
     make_cells();
     judge_cells(result_);
@@ -83,7 +88,8 @@ class StairStep {
     const std::vector<char> is_inside = parallel_map(
         std::size_t{size[0]} * size[1],
         [&](std::size_t q) {
-          const Vec3 p = at(q % size[0] + 0.5 + middle_shift_x, static_cast<double>(q / size[0]) + 0.5 + middle_shift_y);
+          const Vec3 p =
+              at(q % size[0] + 0.5 + middle_shift_x, static_cast<double>(q / size[0]) + 0.5 + middle_shift_y);
           return static_cast<char>(!lines_.at(p.x, p.y).is_empty());
         },
         64);
@@ -103,7 +109,8 @@ class StairStep {
         if (is_inside[i + std::size_t{size[0]} * j])
           plan.quads.push_back({point(i, j), point(i + 1, j), point(i + 1, j + 1), point(i, j + 1)});
     if (plan.quads.empty())
-      return Failure{FailureCode::geometry_failed, "no column has its middle inside the model", "ask for shorter edges"};
+      return Failure{FailureCode::geometry_failed, "no column has its middle inside the model",
+                     "ask for shorter edges"};
     for (const std::uint32_t e : faults_) plan.features.push_back({model_.entities[e].name, Role::fault, 0, -1});
     return {};
   }
@@ -134,7 +141,8 @@ class StairStep {
   Column column(std::size_t q) const {
     const auto& quad = grid_.plan.quads[q];
     const Vec3 &first = grid_.plan.points[quad[0]], &last = grid_.plan.points[quad[2]];
-    const Vec3 middle = 0.5 * (first + last) + middle_shift_x * step_[0] * frame_.i + middle_shift_y * step_[1] * frame_.j;
+    const Vec3 middle =
+        0.5 * (first + last) + middle_shift_x * step_[0] * frame_.i + middle_shift_y * step_[1] * frame_.j;
     const PlumbLine middle_line = lines_.at(middle.x, middle.y);
     const std::vector<PlumbLevel> middles = levels_on(middle_line);
     Column column;
@@ -157,7 +165,8 @@ class StairStep {
       const std::vector<PlumbLevel> levels = levels_on(line);
       for (std::uint32_t k = 0; k <= layers_; ++k) {
         column.corner_z[k][c] = levels[k].z;
-        column.is_seen[k][c] = fault_between({middle.x, middle.y, column.middle_z[k]}, {corner.x, corner.y, levels[k].z}) == no_index;
+        column.is_seen[k][c] =
+            fault_between({middle.x, middle.y, column.middle_z[k]}, {corner.x, corner.y, levels[k].z}) == no_index;
       }
     }
     for (std::uint32_t k = 0; k <= layers_; ++k) continue_plane(column, k);
@@ -274,8 +283,7 @@ class StairStep {
   /// Columns around a point that no fault parts at a level, each called by the first of them.
   std::vector<std::uint32_t> groups_around(std::uint32_t p, std::uint32_t level) const {
     return edges_.wedge_groups(p, [&](std::uint32_t e) {
-      return (level > 0 && fault_of_[e][level - 1] == no_index) ||
-             (level < layers_ && fault_of_[e][level] == no_index);
+      return (level > 0 && fault_of_[e][level - 1] == no_index) || (level < layers_ && fault_of_[e][level] == no_index);
     });
   }
 
@@ -318,7 +326,8 @@ class StairStep {
     mesh.local_origin = model_.local_origin;
     mesh.entities = model_.entities;
     mesh.region_names = model_.region_names;
-    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e) mesh.surface_entity.push_back(static_cast<std::int32_t>(e));
+    for (std::uint32_t e = 0; e < mesh.entities.size(); ++e)
+      mesh.surface_entity.push_back(static_cast<std::int32_t>(e));
     std::vector<std::uint32_t> first;
     std::vector<std::uint32_t> wedge_of(4 * grid_.plan.quads.size(), 0);
     for (std::uint32_t p = 0; p < pillars_.size(); ++p) {
@@ -360,7 +369,9 @@ class StairStep {
         if (leapt(q, k) == no_index || leapt(q, k - 1) != no_index) continue;  // the lowest of those that lie there
         const std::uint32_t cell = q * layers_ + k;
         mesh.facets.push_back({{vertex(cell, 0), vertex(cell, 1), vertex(cell, 2), vertex(cell, 3)},
-                               faults_[leapt(q, k)], cell - 1, cell});
+                               faults_[leapt(q, k)],
+                               cell - 1,
+                               cell});
       }
     for (std::uint32_t e = 0; e < edges_.edges.size(); ++e)
       for (std::uint32_t k = 0; k < layers_; ++k) {
@@ -368,7 +379,8 @@ class StairStep {
         std::array<MeshFacet, 2> both;
         for (std::size_t s = 0; s < 2; ++s) {
           const std::uint32_t cell = edges_.edges[e].quads[s] * layers_ + k, c = edges_.edges[e].sides[s];
-          both[s].vertices = {vertex(cell, c), vertex(cell, (c + 1) % 4), vertex(cell, 4 + (c + 1) % 4), vertex(cell, 4 + c)};
+          both[s].vertices = {vertex(cell, c), vertex(cell, (c + 1) % 4), vertex(cell, 4 + (c + 1) % 4),
+                              vertex(cell, 4 + c)};
           both[s].cell_0 = cell;
           both[s].surface = faults_[fault_of_[e][k]];
         }
@@ -392,7 +404,7 @@ class StairStep {
   std::array<double, 2> step_{};
   std::vector<Column> columns_;
   PlanEdges edges_;
-  std::vector<Pillar> pillars_;  ///< per plan point
+  std::vector<Pillar> pillars_;                       ///< per plan point
   std::vector<std::vector<std::uint32_t>> fault_of_;  ///< per edge and layer: index into faults_, or no_index
   ExtrudedHexes result_;
   HexGrid& grid_ = result_.grid;

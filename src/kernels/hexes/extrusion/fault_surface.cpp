@@ -4,7 +4,8 @@
 
 namespace strataflow {
 
-FaultSurface::FaultSurface(const LabelledTets& model, std::uint32_t entity) : points_(&model.points) {
+FaultSurface::FaultSurface(const LabelledTets& model, std::uint32_t entity, const std::vector<Vec3>& points)
+    : points_(&points) {
   for (const SheetFacet& facet : model.facets)
     if (facet.kind == SheetKind::fault && facet.entity == entity) triangles_.push_back(facet.vertices);
   std::vector<FloatBox> boxes;

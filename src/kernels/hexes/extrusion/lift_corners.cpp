@@ -28,6 +28,11 @@ CornerLifter::CornerLifter(const LayeredSpace& space, const QuadMesh& plan, cons
       edge_m_(mean_plan_edge_m(plan)),
       locator_(space, edge_m_),
       wall_of_face_(walls_of_faces(space)) {
+  if (std::any_of(space.model.facets.begin(), space.model.facets.end(),
+                  [](const SheetFacet& facet) { return facet.kind == SheetKind::fault && facet.is_aligned == 0; })) {
+    lines_.emplace(space, space.plan);
+    heights_.emplace(TetLocator::of_heights(space));
+  }
   lift_centres();
 }
 
@@ -55,20 +60,23 @@ void CornerLifter::lift_centres() {
       if (place.tet == no_index) outside_quad_ = q;
 }
 
-Lift CornerLifter::lift(std::uint32_t point, double w) const {
-  if (const std::uint32_t beside = edges_.corner_beside_strip(point); beside != no_index)
-    return lift_on_fault(beside, w);
+/// In `start`, if that is known, of several tetrahedra that hold the place.
+Lift CornerLifter::lift(std::uint32_t point, double w, std::uint32_t start) const {
   const Vec3 at = locator_.at(plan_.points[point], w);
   TetLocator::Place place = locator_.locate(at, edge_m_);
+  if (start != no_index) place = {start, locator_.outside_m(start, at)};
   if (place.tet == no_index) place.tet = tet_of_cell(edges_.wedges[edges_.first_wedge[point]] / 4, 0);
   Lift one{place.tet, place.outside_m, {}, false, false};
   const bool is_outside = place.outside_m > 1e-9 * edge_m_;
   one.position = position_in(
-      one,
+      locator_, place,
       is_outside ? locator_.in_ball(at, std::max(2 * place.outside_m, 0.2 * edge_m_)) : std::vector<std::uint32_t>{},
       at);
-  if (edges_.is_on_outline[point])
-    if (const auto held = position_on_walls(point, place.tet, at)) one.position = *held;
+  if (!edges_.is_on_outline[point]) return one;
+  const std::vector<std::uint32_t> ball = locator_.in_ball(at, wall_reach_m(point));
+  if (std::binary_search(ball.begin(), ball.end(), place.tet))
+    if (const auto held = position_on_walls(locator_, point, connected_in_ball(place.tet, ball), at))
+      one.position = *held;
   return one;
 }
 
@@ -117,51 +125,106 @@ std::vector<std::uint32_t> CornerLifter::connected_in_ball(std::uint32_t start,
   return connected;
 }
 
-Lift CornerLifter::lift_on_fault(std::uint32_t corner, double w) const {
+/// `start`: a tetrahedron on the side of the corner, if one is known better than that below the quad's centre.
+Lift CornerLifter::lift_on_fault(std::uint32_t corner, double w, std::uint32_t start) const {
   const std::uint32_t q = corner / 4, point = plan_.quads[q][corner % 4];
   const Vec3 p = locator_.at(plan_.points[point], w);
-  const std::uint32_t below_centre = centre_places_[q][layers_ + static_cast<std::size_t>(std::llround(w))].tet;
+  const std::uint32_t below_centre =
+      start != no_index ? start : centre_places_[q][layers_ + static_cast<std::size_t>(std::llround(w))].tet;
   if (options_.uses_barycentre_tet)
     return {below_centre, locator_.outside_m(below_centre, p), locator_.lifted(below_centre, p), false, false};
   const std::vector<std::uint32_t> ball = locator_.in_ball(p, options_.ball_ratio * edges_.local_edge_m[point]);
-  const std::uint32_t start = first_in_ball(below_centre, ball);
-  if (start == no_index) {
+  const std::uint32_t first = first_in_ball(below_centre, ball);
+  if (first == no_index) {
     const TetLocator::Place place = locator_.locate(p, edge_m_);
     const std::uint32_t tet = place.tet == no_index ? below_centre : place.tet;
     return {tet, locator_.outside_m(tet, p), locator_.lifted(tet, p), true, false};
   }
-  const std::vector<std::uint32_t> reached = connected_in_ball(start, ball);
-  Lift best{no_index, std::numeric_limits<double>::infinity(), {}, false, false};
-  for (const std::uint32_t t : reached) {
-    const double outside = locator_.outside_m(t, p);
-    if (outside < best.outside_m) best = {t, outside, {}, false, false};
+  const std::vector<std::uint32_t> reached = connected_in_ball(first, ball);
+  TetLocator::Place best{no_index, std::numeric_limits<double>::infinity()};
+  for (const std::uint32_t t : reached)
+    if (const TetLocator::Place place = locator_.place_in(t, p); place.is_before(best)) best = place;
+  const std::vector<std::uint32_t> wide = locator_.in_ball(p, wall_reach_m(point));
+  const auto held = position_on_walls(locator_, point, connected_in_ball(first, wide), p);
+  return {best.tet, best.outside_m, held ? *held : position_in(locator_, best, reached, p), false, false};
+}
+
+/// Over a corner, at a height: no fault parts what lies below and above.
+Lift CornerLifter::lift_at_height(std::uint32_t corner, double z) const {
+  const std::uint32_t point = plan_.quads[corner / 4][corner % 4];
+  const Vec3 at = heights_->at(plan_.points[point], z);
+  const double reach = wall_reach_m(point);
+  TetLocator::Place place = heights_->locate(at, edge_m_);
+  if (place.tet == no_index) place = {tet_of_cell(corner / 4, 0), edge_m_};
+  const std::vector<std::uint32_t> near = heights_->in_ball(at, std::max(reach, 2 * place.outside_m));
+  const auto held = edges_.is_on_outline[point] || edges_.is_on_fault[point]
+                        ? position_on_walls(*heights_, point, near, at)
+                        : std::nullopt;
+  return {place.tet, std::max(0.0, place.outside_m), held ? *held : position_in(*heights_, place, near, at), false,
+          false};
+}
+
+/// The levels on the line over a corner; over walls, on a line beside them, in its quad. None where no fault that need
+/// not be followed crosses it.
+std::optional<BridgedLevels> CornerLifter::bridges_over(std::uint32_t corner) const {
+  if (!lines_) return std::nullopt;
+  const std::uint32_t point = plan_.quads[corner / 4][corner % 4];
+  const Vec3& p = plan_.points[point];
+  Vec3 inward = -1.0 * p;
+  for (const std::uint32_t other : plan_.quads[corner / 4]) inward = inward + 0.25 * plan_.points[other];
+  const bool is_on_wall = edges_.is_on_fault[point] || edges_.is_on_outline[point] || edges_.zones.is_on_strip[point];
+  const double beside = is_on_wall ? options_.ball_ratio * edges_.local_edge_m[point] / length(inward) : 0;
+  for (const double share : {beside, 0.25, 0.5, 1.0}) {
+    const Vec3 at = p + share * inward;
+    PlumbLine line = lines_->at(at.x, at.y);
+    if (line.is_empty()) continue;
+    BridgedLevels bridges(std::move(line), space_.layers.level_w);
+    return bridges.is_needed() ? std::optional(std::move(bridges)) : std::nullopt;
   }
-  const auto held = position_on_walls(point, start, p);
-  best.position = held ? *held : position_in(best, reached, p);
-  return best;
+  return std::nullopt;
 }
 
 /// The position of p: where it lies a little outside, that of the nearest point of its level in one of the candidates,
 /// so that it stays on horizons, faults and sides.
-Vec3 CornerLifter::position_in(const Lift& best, const std::vector<std::uint32_t>& candidates, const Vec3& p) const {
-  if (best.outside_m <= 1e-9 * edge_m_) return locator_.lifted(best.tet, p);
+Vec3 CornerLifter::position_in(const TetLocator& locator, const TetLocator::Place& best,
+                               const std::vector<std::uint32_t>& candidates, const Vec3& p) const {
+  if (best.outside_m <= 1e-9 * edge_m_) return locator.lifted(best.tet, p);
   TetLocator::LevelPoint nearest{p, std::numeric_limits<double>::infinity()};
   std::uint32_t tet = best.tet;
   for (const std::uint32_t t : candidates) {
-    const TetLocator::LevelPoint one = locator_.nearest_at_level(t, p);
+    const TetLocator::LevelPoint one = locator.nearest_at_level(t, p);
     if (!(one.distance_m < nearest.distance_m)) continue;
     nearest = one;
     tet = t;
   }
-  return locator_.lifted(tet, nearest.at);
+  return locator.lifted(tet, nearest.at);
 }
 
 std::vector<Lift> CornerLifter::lift_column(std::uint32_t point) const {
-  return lift_levels([&](double w) { return lift(point, w); });
+  if (const std::uint32_t beside = edges_.corner_beside_strip(point); beside != no_index)
+    return lift_column_on_fault(beside);
+  return lift_bridged(edges_.wedges[edges_.first_wedge[point]],
+                      [&](double w, std::uint32_t start) { return lift(point, w, start); });
 }
 
 std::vector<Lift> CornerLifter::lift_column_on_fault(std::uint32_t corner) const {
-  return lift_levels([&](double w) { return lift_on_fault(corner, w); });
+  return lift_bridged(corner, [&](double w, std::uint32_t start) { return lift_on_fault(corner, w, start); });
+}
+
+/// `lift_at` (w, a tetrahedron on the right side of faults that need not be followed, or no_index), where W has a
+/// place.
+template <class LiftAt>
+std::vector<Lift> CornerLifter::lift_bridged(std::uint32_t corner, LiftAt&& lift_at) const {
+  const std::optional<BridgedLevels> bridges = bridges_over(corner);
+  return lift_levels([&](double w) {
+    if (!bridges) return lift_at(w, no_index);
+    const BridgedLevels::Place place = bridges->at(w);
+    if (!place.is_bridged) return lift_at(w, bridges->tet_at(place.z));
+    Lift one = lift_at_height(corner, place.z);
+    one.is_bridged = true;
+    one.bridged_m = place.moved_m;
+    return one;
+  });
 }
 
 /// All levels; inside units with parallel layers, at the W whose height is wanted: W grows with height, so that secants
@@ -204,19 +267,23 @@ std::vector<Lift> CornerLifter::lift_levels(LiftAt&& lift_at) const {
   return column;
 }
 
-/// The nearest point of its level that lies on all walls the plan says it is on, as far as they can be reached from the
-/// tetrahedron `start` close by; nothing where there are none.
-std::optional<Vec3> CornerLifter::position_on_walls(std::uint32_t point, std::uint32_t start, const Vec3& p) const {
-  constexpr double reach_ratio = 0.25;  // of the shortest edge: the plan's lines moved by a tenth, and edges cut bends
+/// How far from a point of the plan its walls are looked for: the plan's lines moved by a tenth, and edges cut bends.
+double CornerLifter::wall_reach_m(std::uint32_t point) const {
+  constexpr double reach_ratio = 0.25;  // of the shortest edge
+  return std::max(options_.ball_ratio, reach_ratio) * edges_.local_edge_m[point];
+}
+
+/// The nearest point of its level that lies on all walls the plan says it is on, of those the tetrahedra `near` have;
+/// nothing where there are none.
+std::optional<Vec3> CornerLifter::position_on_walls(const TetLocator& locator, std::uint32_t point,
+                                                    const std::vector<std::uint32_t>& near, const Vec3& p) const {
   constexpr int most_rounds = 40;
-  const double reach = std::max(options_.ball_ratio, reach_ratio) * edges_.local_edge_m[point];
-  std::vector<std::uint32_t> ball = locator_.in_ball(p, reach);
-  if (!std::binary_search(ball.begin(), ball.end(), start)) return std::nullopt;
+  const double reach = wall_reach_m(point);
   struct WallFace {
     std::uint32_t entity, face;
   };
   std::vector<WallFace> faces;
-  for (const std::uint32_t t : connected_in_ball(start, ball))
+  for (const std::uint32_t t : near)
     for (std::uint32_t k = 0; k < 4; ++k) {
       const std::uint32_t entity = wall_of_face_[4 * t + k];
       if (entity == no_index) continue;
@@ -237,7 +304,7 @@ std::optional<Vec3> CornerLifter::position_on_walls(std::uint32_t point, std::ui
       TetLocator::LevelPoint nearest{p, std::numeric_limits<double>::infinity()};
       std::uint32_t holder = no_index;
       for (; end < faces.size() && faces[end].entity == faces[begin].entity; ++end) {
-        const TetLocator::LevelPoint one = locator_.nearest_on_face(faces[end].face / 4, faces[end].face % 4, at);
+        const TetLocator::LevelPoint one = locator.nearest_on_face(faces[end].face / 4, faces[end].face % 4, at);
         if (!(one.distance_m < nearest.distance_m)) continue;
         nearest = one;
         holder = faces[end].face / 4;
@@ -250,7 +317,7 @@ std::optional<Vec3> CornerLifter::position_on_walls(std::uint32_t point, std::ui
     if (walls < 2 || length(at - before) < 1e-12 * edge_m_) break;
   }
   if (tet == no_index) return std::nullopt;
-  return locator_.lifted(tet, at);
+  return locator.lifted(tet, at);
 }
 
 }  // namespace strataflow

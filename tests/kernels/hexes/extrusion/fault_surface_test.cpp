@@ -21,6 +21,15 @@ LabelledTets square_fault() {
   return model;
 }
 
+TEST(FaultSurface, is_met_where_its_points_are_said_to_be) {
+  const LabelledTets model = square_fault();
+  std::vector<Vec3> moved = model.points;
+  for (Vec3& p : moved) p.x += 3;
+  const FaultSurface fault(model, 0, moved);
+  EXPECT_FALSE(fault.meets({-1, 0.7, 0.2}, {1, 0.7, 0.2}));
+  EXPECT_TRUE(fault.meets({2, 0.7, 0.2}, {4, 0.7, 0.2}));
+}
+
 TEST(FaultSurface, is_met_by_rays_through_triangles_and_through_the_edge_between_them) {
   const LabelledTets model = square_fault();
   const FaultSurface fault(model, 0);

@@ -1,4 +1,4 @@
-#include "kernels/hexes/baselines/plumb_line.h"
+#include "kernels/hexes/extrusion/plumb_line.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,7 +51,18 @@ std::uint32_t PlumbLine::tet_at(double z) const {
   return tet;
 }
 
-PlumbLines::PlumbLines(const LayeredSpace& space) : space_(space), is_flipped_(space.layers.tets.size(), 0) {
+std::vector<PlumbLeap> PlumbLine::dropped_leaps() const {
+  std::vector<PlumbLeap> leaps;
+  for (std::size_t i = 1; i < pieces_.size(); ++i) {
+    const PlumbPiece &below = pieces_[i - 1], &above = pieces_[i];
+    if ((below.ends_at_dropped || above.starts_at_dropped) && std::abs(above.low_w - below.high_w) > same_w)
+      leaps.push_back({below.high_w, above.low_w});
+  }
+  return leaps;
+}
+
+PlumbLines::PlumbLines(const LayeredSpace& space, const std::vector<Vec3>& places)
+    : space_(space), places_(places), is_flipped_(space.layers.tets.size(), 0) {
   for (const std::uint32_t t : space.flipped) is_flipped_[t] = 1;
   Box3 all;
   for (const Vec3& p : space.model.points) all.take(p);
@@ -61,10 +72,19 @@ PlumbLines::PlumbLines(const LayeredSpace& space) : space_(space), is_flipped_(s
       std::size_t{space.layers.model_tets},
       [&](std::size_t t) {
         Box3 box;
-        for (const std::uint32_t copy : space.layers.tets[t]) box.take(space.model.points[space.layers.point[copy]]);
+        for (const std::uint32_t copy : space.layers.tets[t]) {
+          const std::uint32_t p = space.layers.point[copy];
+          box.take(Vec3{places[p].x, places[p].y, space.model.points[p].z});
+        }
         return enclosing(box);
       },
       4096));
+}
+
+bool PlumbLines::is_dropped(std::uint32_t face) const {
+  const std::uint32_t number = space_.model.facet_of[face];
+  return number != no_index && space_.model.facets[number].kind == SheetKind::fault &&
+         space_.model.facets[number].is_aligned == 0;
 }
 
 PlumbLine PlumbLines::at(double x, double y) const {
@@ -74,23 +94,31 @@ PlumbLine PlumbLines::at(double x, double y) const {
     if (is_flipped_[t]) return;
     const Tet& tet = space_.layers.tets[t];
     PlumbPiece piece{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(), 0, 0, t};
-    for (const auto& face : face_corners) {
+    for (std::uint32_t f = 0; f < 4; ++f) {
+      const auto& face = face_corners[f];
       std::array<double, 3> share{};  // times twice the face's area seen from above
       double all = 0;
       for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3& a = space_.model.points[space_.layers.point[tet[face[(k + 1) % 3]]]];
-        const Vec3& b = space_.model.points[space_.layers.point[tet[face[(k + 2) % 3]]]];
+        const Vec3& a = places_[space_.layers.point[tet[face[(k + 1) % 3]]]];
+        const Vec3& b = places_[space_.layers.point[tet[face[(k + 2) % 3]]]];
         share[k] = (a.x - x) * (b.y - y) - (a.y - y) * (b.x - x);
         all += share[k];
       }
-      if (all == 0 || std::any_of(share.begin(), share.end(), [&](double s) { return !(s / all >= outside); })) continue;
+      if (all == 0 || std::any_of(share.begin(), share.end(), [&](double s) { return !(s / all >= outside); }))
+        continue;
       double z = 0, w = 0;
       for (std::size_t k = 0; k < 3; ++k) {
         z += share[k] / all * space_.model.points[space_.layers.point[tet[face[k]]]].z;
         w += share[k] / all * space_.layers.w[tet[face[k]]];
       }
-      if (z < piece.low_z) piece.low_z = z, piece.low_w = w;
-      if (z > piece.high_z) piece.high_z = z, piece.high_w = w;
+      if (z < piece.low_z) {
+        piece.low_z = z, piece.low_w = w;
+        piece.starts_at_dropped = is_dropped(4 * t + f);
+      }
+      if (z > piece.high_z) {
+        piece.high_z = z, piece.high_w = w;
+        piece.ends_at_dropped = is_dropped(4 * t + f);
+      }
     }
     if (piece.low_z < piece.high_z && piece.low_w <= piece.high_w) pieces.push_back(piece);
   });
