@@ -138,21 +138,26 @@ class HexSmoother {
       }
     }
     surfaces_.resize(space_.model.entities.size());
-    for (std::uint32_t v = 0; v < freedom_.size(); ++v) {
-      if (freedom_[v] < 0) continue;
-      Surface& surface = surfaces_[static_cast<std::size_t>(freedom_[v])];
-      if (!surface.nearest) {
-        for (const SheetFacet& facet : space_.model.facets)
-          if (facet.entity == static_cast<std::uint32_t>(freedom_[v]) && facet.kind != SheetKind::fault)
-            surface.triangles.push_back(facet.vertices);
-        surface.nearest = std::make_unique<NearestTriangle>(TriangleMesh{space_.model.points, surface.triangles});
-      }
-      if (surface.triangles.empty()) {  // a fault that the plan does not follow: stairs
-        freedom_[v] = -2;
-        continue;
-      }
-      if (length(held(v, mesh_.points[v]) - mesh_.points[v]) > touching_ratio * edge_m_) freedom_[v] = -1;
-    }
+    for (const SheetFacet& facet : space_.model.facets)
+      if (facet.kind != SheetKind::fault) surfaces_[facet.entity].triangles.push_back(facet.vertices);
+    std::vector<char> is_asked(surfaces_.size(), 0);
+    for (const std::int32_t freedom : freedom_)
+      if (freedom >= 0) is_asked[static_cast<std::size_t>(freedom)] = 1;
+    for (std::size_t e = 0; e < surfaces_.size(); ++e)
+      if (is_asked[e] && !surfaces_[e].triangles.empty())
+        surfaces_[e].nearest =
+            std::make_unique<NearestTriangle>(TriangleMesh{space_.model.points, surfaces_[e].triangles});
+    freedom_ = parallel_map(
+        freedom_.size(),
+        [&](std::size_t v) {
+          if (freedom_[v] < 0) return freedom_[v];
+          if (!surfaces_[static_cast<std::size_t>(freedom_[v])].nearest)
+            return -2;  // a fault beside the plan's: stairs
+          const Vec3& at = mesh_.points[v];
+          const bool is_off = length(held(static_cast<std::uint32_t>(v), at) - at) > touching_ratio * edge_m_;
+          return is_off ? -1 : freedom_[v];
+        },
+        256);
   }
 
   /// Vertices of one colour share no cell.
@@ -234,10 +239,10 @@ class HexSmoother {
   }
 
   double most_warped() const {
-    double most = 0;
-    for (std::size_t c = 0; c < quality_.size(); ++c)
-      if (has_volume(c)) most = std::max(most, face_warpage_m(hex_corners(mesh_, c)));
-    return most / edge_m_;
+    const std::vector<double> warped = parallel_map(
+        mesh_.cell_count(), [&](std::size_t c) { return has_volume(c) ? face_warpage_m(hex_corners(mesh_, c)) : 0.0; },
+        1024);
+    return warped.empty() ? 0 : *std::max_element(warped.begin(), warped.end()) / edge_m_;
   }
 
   struct Surface {

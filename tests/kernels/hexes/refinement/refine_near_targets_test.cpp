@@ -104,7 +104,8 @@ TEST(RefinementTarget, is_found_by_the_name_of_a_well_a_fault_or_a_region) {
   EXPECT_EQ(target("W")->segments.size(), 1u);  // where it meets the top
   EXPECT_EQ(target("spots")->segments.size(), 2u);
   double trace_m = 0;
-  for (const auto& segment : target("F1")->segments) trace_m += length(segment[1] - segment[0]);
+  const auto fault = target("F1");
+  for (const auto& segment : fault->segments) trace_m += length(segment[1] - segment[0]);
   EXPECT_NEAR(trace_m, 1200, 1e-6);
   const std::string region = model->model.region_names.front();
   EXPECT_GT(target(region)->areas.size(), 2u);
