@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kernels/hexes/tet_models.h"
 
 namespace strataflow {
@@ -23,6 +25,34 @@ TEST_F(TetLocation, finds_the_tetrahedron_around_a_point_and_lifts_it_to_its_lay
   EXPECT_NEAR(lifted.y, 555, 1e-9);
   EXPECT_GT(lifted.z, 90);  // between H1 and H2
   EXPECT_LT(lifted.z, 215);
+}
+
+TEST_F(TetLocation, is_on_the_horizon_whatever_w_does_elsewhere) {
+  LayeredSpace space = space_;
+  const double level = space.layers.level_w[2];
+  std::size_t held_twice = 0;
+  for (std::uint32_t astray = 0; astray < space.layers.model_tets && held_twice < 5; ++astray) {
+    const Tet& tet = space.layers.tets[astray];
+    if (std::any_of(tet.begin(), tet.end(), [&](std::uint32_t copy) { return space.layers.w[copy] == level; }))
+      continue;
+    Vec3 middle;
+    for (std::size_t k = 0; k < 4; ++k) {  // W leaps over the level inside it
+      space.layers.w[tet[k]] = k % 2 == 0 ? level - 0.5 : level + 0.5;
+      middle = middle + 0.25 * space.plan[space.layers.point[tet[k]]];
+    }
+    const TetLocator locator(space, 100);
+    const Vec3 p = locator.at(middle, level);
+    if (locator.outside_m(astray, p) < -1) {
+      ++held_twice;
+      const TetLocator::Place place = locator.locate(p, 100);
+      EXPECT_TRUE(place.is_on_level);
+      std::size_t on_level = 0;
+      for (const std::uint32_t copy : space.layers.tets[place.tet]) on_level += space.layers.w[copy] == level;
+      EXPECT_EQ(on_level, 3u);
+    }
+    space.layers.w = space_.layers.w;
+  }
+  EXPECT_EQ(held_twice, 5u);
 }
 
 TEST_F(TetLocation, says_how_far_outside_a_point_lies) {
